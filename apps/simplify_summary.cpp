@@ -4,6 +4,7 @@
 #include "simplify_summary.h"
 
 #include "coarse_part.h"
+#include "doubtful_units.h"
 #include "fate_of_limit.h"
 #include "output_files.h"
 #include "small_pieces.h"
@@ -426,18 +427,6 @@ std::string name_of(const Level& level)
   return level.output + (level.number == 0 ? "" : " (level " + std::to_string(level.number) + ")");
 }
 
-bool are_boxes_apart(const Triangle_soup& a, const Triangle_soup& b)
-{
-  const auto box_of = [](const Triangle_soup& soup) {
-    CGAL::Bbox_3 box;
-    for (const Index_triple& triangle : soup.triangles)
-      for (const Index v : triangle)
-        box += soup.points[v].bbox();
-    return box;
-  };
-  return !CGAL::do_overlap(box_of(a), box_of(b));
-}
-
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                  double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references)
@@ -454,10 +443,16 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << '\n';
   if (const std::size_t faces = prepared.obstacle.triangles.size(); faces > 0) {
     stream << "  obstacle: " << counted(faces, "face");
-    if (prepared.soup.poses.empty() && are_boxes_apart(prepared.soup, prepared.obstacle))
-      stream << ", away from the mesh (their boxes are apart); is one of the two in another unit or place?";
-    stream << '\n';
+    const std::string doubt = doubt_of_obstacle(prepared.soup, prepared.obstacle);
+    stream << (doubt.empty() ? "" : ", ") << doubt << '\n';
   }
+  const CGAL::Bbox_3 box = box_of(prepared.soup.points, prepared.soup.triangles);
+  for (const Pose& pose : prepared.soup.poses)
+    if (const std::string doubt = doubt_of_unit(box, box_of(pose.points, prepared.soup.triangles));
+        !doubt.empty()) {
+      stream << "  pose '" << pose.name << "' is " << doubt << '\n';
+      break;
+    }
   if (const std::size_t open = prepared.left_out_faces_that_open; open > 0)
     stream << "  " << with_commas(open)
            << " of the degenerate faces open when morph targets or bones move, like "

@@ -165,7 +165,9 @@ inline std::string describe(const Offending_pair& pair,
   };
   if (pair.first == pair.second)
     return "triangle " + number(pair.first) + " is degenerate";
-  return "triangles " + number(pair.first) + " and " + number(pair.second) +
+  const bool is_of_obstacle = pair.second >= triangles;
+  return (is_of_obstacle ? "triangle " : "triangles ") + number(pair.first) + " and " +
+         (is_of_obstacle ? "triangle " : "") + number(pair.second) +
          (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
 }
 

@@ -4,6 +4,7 @@
 #include "Thread_limit.h"
 #include "attributes_option.h"
 #include "blind_spots.h"
+#include "doubtful_units.h"
 #include "dropped_parts_options.h"
 #include "html_report.h"
 #include "output_files.h"
@@ -205,8 +206,8 @@ void print_pairs_of_original(std::size_t pairs)
                  "with a log\n";
 }
 
-void print(const Verify_request& request, const Mesh_file& mesh, const Judgement& judgement,
-           const std::vector<std::string>& cannot_see)
+void print(const Verify_request& request, const Mesh_file& mesh, const Triangle_soup& obstacle,
+           const Judgement& judgement, const std::vector<std::string>& cannot_see)
 {
   const auto& [verification, comparison] = judgement;
   const bool has_original = !request.original.empty();
@@ -221,6 +222,9 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Judgement
             << ", Euler characteristic " << euler << '\n';
   for (const std::string& note : describe(mesh.notes))
     std::cout << "  " << note << '\n';
+  if (const std::string doubt = doubt_of_obstacle(mesh.soup, obstacle);
+      !request.obstacle.empty() && !doubt.empty())
+    std::cout << "  obstacle: " << doubt << '\n';
 
   for (const Verification::Permitted& parts : verification.permitted)
     std::cout << "may intersect: " << counted(parts.pairs, "pair") << " between '" << parts.first << "' and '"
@@ -387,7 +391,7 @@ Exit_code run(const Verify_request& request)
   report["exit_code"] = int(code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.html));
-    put_report(request, report, [&] { print(request, mesh, judgement, cannot_see); });
+    put_report(request, report, [&] { print(request, mesh, obstacle, judgement, cannot_see); });
   }
   if (!request.html.empty()) {
     Html_report html(has_original ? original.soup : mesh.soup, has_original ? mesh.soup : original.soup);

@@ -109,6 +109,38 @@ TEST(App_verify, PiecesNearerThanAClearanceAreNotVerified)
   EXPECT_EQ(against("nearer.obj"), 1);
 }
 
+TEST(App_verify, AsksWhetherTheObstacleIsInAnotherUnitOrPlace)
+{
+  const Workspace folder;
+  const auto triangle = [](const std::string& size, const std::string& z) {
+    return "v 0 0 " + z + "\nv " + size + " 0 " + z + "\nv 0 " + size + ' ' + z + "\nf 1 2 3\n";
+  };
+  write_text(folder / "cloth.obj", triangle("1", "1"));
+  const auto asks = [&](const std::string& body, const std::string& question) {
+    write_text(folder / "body.obj", body);
+    const std::string verify =
+                          run_app({"verify", folder / "cloth.obj", "--obstacle", folder / "body.obj"}).out,
+                      simplify = run_app({"simplify", folder / "cloth.obj", "-o", folder / "out.obj",
+                                          "--ratio", "1", "--obstacle", folder / "body.obj"})
+                                     .out;
+    const bool in_verify = verify.find(question) != std::string::npos;
+    EXPECT_EQ(in_verify, simplify.find(question) != std::string::npos) << verify << simplify;
+    return in_verify;
+  };
+  EXPECT_TRUE(
+      asks(triangle("100", "1.5"), "100 times as large as the mesh; is one of the two in another unit?"));
+  EXPECT_TRUE(
+      asks(triangle("0.01", "1"), "100 times smaller than the mesh; is one of the two in another unit?"));
+  EXPECT_TRUE(asks(triangle("2", "1.5"), "away from the mesh (their boxes are apart)"));
+  EXPECT_FALSE(asks(triangle("2", "1"), "another unit"));
+  write_text(folder / "pose.obj", triangle("100", "1"));
+  const std::string of_pose = run_app({"simplify", folder / "cloth.obj", "-o", folder / "out.obj", "--ratio",
+                                       "1", "--pose", folder / "pose.obj"})
+                                  .out;
+  EXPECT_NE(of_pose.find("pose 'pose' is 100 times as large as the mesh; is one"), std::string::npos)
+      << of_pose;
+}
+
 TEST(App_verify, WhatTouchesAnObstacleIsNotVerified)
 {
   const Workspace folder;
@@ -124,7 +156,8 @@ TEST(App_verify, WhatTouchesAnObstacleIsNotVerified)
       << clear.out;
   const App_result torn = run_app({"verify", folder / "torn.obj", "--obstacle", folder / "body.obj"});
   EXPECT_EQ(torn.code, 1);
-  EXPECT_NE(torn.out.find("triangles 1 and 1 of the obstacle intersect"), std::string::npos) << torn.out;
+  EXPECT_NE(torn.out.find("triangle 1 and triangle 1 of the obstacle intersect"), std::string::npos)
+      << torn.out;
   const auto against = [&](const char* original) {
     return run_app(
         {"verify", folder / "torn.obj", "--against", folder / original, "--obstacle", folder / "body.obj"});
