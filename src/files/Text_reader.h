@@ -249,8 +249,11 @@ private:
   {
     Text_reader at = *this;
     const std::string_view found = at.word();
-    fail(found.empty() ? "the line ends where " + kind + " should stand"
-                       : in_quotes(found) + " is not " + kind);
+    fail(found.empty()
+             ? "the line ends where " + kind + " should stand"
+             : in_quotes(found) + " is not " + kind +
+                   (kind == "a number" && found.find(',') != found.npos ? "; write decimals with a point"
+                                                                        : ""));
   }
 
   const char* m_begin;

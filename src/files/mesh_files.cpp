@@ -240,6 +240,8 @@ Mesh_format mesh_format(const std::filesystem::path& path)
     return Mesh_format::glb;
   if (extension == ".gltf")
     return Mesh_format::gltf;
+  if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
+    throw Input_error(path.string() + ": is a folder; name a mesh file in it");
   throw Input_error(
       path.string() +
       ": the name does not end in .obj, .off, .ply, .stl, .glb, .gltf or .vrm, with or without .gz; "

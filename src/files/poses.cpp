@@ -132,7 +132,8 @@ std::vector<std::filesystem::path> files_named(const std::string& name, const st
     if (!std::filesystem::equivalent(file, mesh, error))
       files.emplace_back(file);
   if (files.empty())
-    throw Input_error(name + ": no file but the mesh itself has such a name");
+    throw Input_error(name + ": no file " + (names.empty() ? "" : "but the mesh itself ") +
+                      "has such a name");
   return files;
 }
 

@@ -99,9 +99,10 @@ private:
     if (m_contents.size() < header_bytes)
       throw Input_error(m_name + ": the file is too short for an STL file; export it again");
     if (m_contents.size() < bytes)
-      throw Input_error(
-          m_name + ": the header announces " + std::to_string(facets) + " facets, but the file ends after " +
-          std::to_string((m_contents.size() - header_bytes) / facet_bytes) + "; it is cut short");
+      throw Input_error(m_name + ": the header announces " + std::to_string(facets) +
+                        " facets, but the file ends after " +
+                        std::to_string((m_contents.size() - header_bytes) / facet_bytes) +
+                        "; it is cut short, or no STL file");
     Binary_reader data(m_contents.substr(header_bytes), false);
     m_builder.soup().triangles.reserve(facets);
     for (std::uint64_t facet = 0; facet < facets; ++facet) {

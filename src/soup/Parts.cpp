@@ -153,7 +153,7 @@ parts_in_pairs(const Triangle_soup& soup, const std::vector<std::string>& texts,
       throw Argument_error(option + ": '" + text + "': " + why);
     };
     std::vector<std::pair<std::string, std::string>> found;
-    std::string unknown = "this is not of the form A:B";
+    std::string unknown = "this is not of the form PART:PART";
     for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
       const std::pair<std::string, std::string> names{text.substr(0, colon), text.substr(colon + 1)};
       try {

@@ -256,6 +256,8 @@ TEST(App_usage, RefusesAPlaceThatCannotBeWrittenBeforeAnyWork)
   expect_refused({"simplify", in, "-o", folder / "a.obj", "--ratio", "0.5", "--report", folder / "none/r"}, 4,
                  "none/r");
   expect_refused({"generate", "grid", "-o", folder / "none/out.obj"}, 4, "none/out.obj");
+  std::filesystem::create_directory(folder / "meshes");
+  expect_refused({"info", folder / "meshes"}, 3, "meshes: is a folder");
 }
 
 } // namespace
