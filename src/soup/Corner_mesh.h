@@ -69,6 +69,7 @@ public:
   bool is_own(Face face) const { return std::size_t(face) < own_face_count(); } ///< is none of an obstacle
   std::size_t own_face_count() const { return m_corners.size(); }               ///< with those that are gone
   bool is_turned(Face face) const { return !m_is_turned.empty() && m_is_turned[face]; }
+  bool may_have_doubles() const { return !m_first_ply.empty(); }
   bool has_doubles(Face face) const
   {
     return !m_first_ply.empty() && is_own(face) && m_first_ply[face] < m_first_ply[face + 1];

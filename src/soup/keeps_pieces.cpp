@@ -3,11 +3,11 @@
 
 #include "keeps_pieces.h"
 
-#include "Sewing.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
+#include <utility>
 
 namespace selvedge {
 namespace {
@@ -16,78 +16,164 @@ using Mesh = Corner_mesh::Mesh;
 using Halfedge = Corner_mesh::Halfedge;
 using Face = Corner_mesh::Face;
 
-// Returns, for each element, the number of the first that is equal.
-template <class Element>
-std::vector<std::ptrdiff_t> first_equal(const std::vector<Element>& elements)
+// The complex that triangles make of vertices of the soup. It has one face between three vertices, however
+// many triangles have these.
+class Vertex_complex
 {
-  std::vector<std::ptrdiff_t> first;
-  for (const Element& element : elements)
-    first.push_back(std::find(elements.begin(), elements.end(), element) - elements.begin());
-  return first;
+public:
+  void add(Index a, Index b, Index c)
+  {
+    Index_triple face{a, b, c};
+    std::sort(face.begin(), face.end());
+    if (std::find(m_faces.begin(), m_faces.end(), face) == m_faces.end())
+      m_faces.push_back(face);
+  }
+
+  // An edge is on a line if it has not two faces. A vertex is inner if its faces are a disc, on a line if
+  // they are half-discs with their diameter in common (at a border, one), and singular otherwise.
+  enum class Kind { inner, on_line, singular };
+  Kind kind(Index v) const { return kind_in(link(v)); }
+
+  // Contracts the edge from v to `goal` and returns true if that keeps the topology:
+  // - v and `goal` have neighbours in common only beside their edge, and no edge lies opposite both;
+  // - no face beside their edge has its other two edges on lines;
+  // - if neither is inner, their edge is on a line, and one of them is not singular.
+  // These are the link conditions of Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge
+  // contraction" (1999).
+  bool contract(Index v, Index goal)
+  {
+    const Link of_v = link(v), of_goal = link(goal);
+    for (const Link_edge& edge : of_v)
+      if (std::find(of_goal.begin(), of_goal.end(), edge) != of_goal.end())
+        return false;
+    for (const Index x : nodes(of_v))
+      if (x != goal && degree(of_goal, x) > 0 &&
+          (std::find(of_v.begin(), of_v.end(), link_edge(goal, x)) == of_v.end() ||
+           (degree(of_v, x) != 2 && degree(of_goal, x) != 2)))
+        return false;
+    const Kind kind_of_v = kind_in(of_v), kind_of_goal = kind_in(of_goal);
+    if (kind_of_v != Kind::inner && kind_of_goal != Kind::inner && degree(of_v, goal) == 2)
+      return false;
+    if (kind_of_v == Kind::singular && kind_of_goal == Kind::singular)
+      return false;
+    const std::vector<Index_triple> faces = std::exchange(m_faces, {});
+    for (Index_triple face : faces) {
+      std::replace(face.begin(), face.end(), v, goal);
+      if (std::count(face.begin(), face.end(), goal) < 2)
+        add(face[0], face[1], face[2]);
+    }
+    return true;
+  }
+
+private:
+  // The edges opposite a vertex, each with its ends in ascending order.
+  using Link_edge = std::pair<Index, Index>;
+  using Link = std::vector<Link_edge>;
+
+  static Link_edge link_edge(Index a, Index b) { return std::minmax(a, b); }
+  Link link(Index v) const
+  {
+    Link result;
+    for (const auto& [a, b, c] : m_faces)
+      if (a == v || b == v || c == v)
+        result.push_back(a == v ? Link_edge(b, c) : b == v ? Link_edge(a, c) : Link_edge(a, b));
+    return result;
+  }
+  static std::vector<Index> nodes(const Link& link)
+  {
+    std::vector<Index> result;
+    for (const auto& [a, b] : link)
+      result.insert(result.end(), {a, b});
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+  static std::ptrdiff_t degree(const Link& link, Index node)
+  {
+    return std::count_if(link.begin(), link.end(),
+                         [&](const Link_edge& edge) { return edge.first == node || edge.second == node; });
+  }
+
+  // Follows the paths from one end of the link, or from any node where it has none, to the other end.
+  static Kind kind_in(const Link& link)
+  {
+    std::vector<Index> ends;
+    for (const Index node : nodes(link))
+      if (degree(link, node) != 2)
+        ends.push_back(node);
+    if (link.empty() || (!ends.empty() && ends.size() != 2))
+      return Kind::singular;
+    const Index first = ends.empty() ? link.front().first : ends[0];
+    const Index last = ends.empty() ? first : ends[1];
+    std::size_t passed = 0;
+    for (auto edge = link.begin(); edge != link.end(); ++edge) {
+      if (edge->first != first && edge->second != first)
+        continue;
+      auto on_path = edge;
+      Index at = first;
+      do {
+        if (at != first)
+          on_path = std::find_if(link.begin(), link.end(), [&](const Link_edge& other) {
+            return other != *on_path && (other.first == at || other.second == at);
+          });
+        at = on_path->first == at ? on_path->second : on_path->first;
+        ++passed;
+      } while (at != first && at != last);
+      if (at != last)
+        return Kind::singular;
+      if (ends.empty())
+        break;
+    }
+    return passed != link.size() ? Kind::singular : ends.empty() ? Kind::inner : Kind::on_line;
+  }
+
+  std::vector<Index_triple> m_faces; // with their vertices in ascending order
+};
+
+void add_star(const Corner_mesh& corners, Mesh::Vertex_index v, Vertex_complex& complex)
+{
+  for (const Face face : corners.mesh().faces_around_target(corners.mesh().halfedge(v)))
+    if (corners.is_own(face))
+      for (Index i = 0; i < corners.ply_count(face); ++i) {
+        const auto& [a, b, c] = corners.corners(face, i);
+        complex.add(corners.vertex_of(a), corners.vertex_of(b), corners.vertex_of(c));
+      }
 }
 
-// The triangles beside an edge must have vertices in common at the goal just where they have them at the
-// mover and, on a line, at the vertex behind it. Those of a contracted face must be one, with all three
-// vertices in common, just where those of its neighbours are and, on a line, those beside the edge behind. So
-// as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many
-// faces. And triangles beside an edge that is no line must have it in common only where they have their third
-// vertex in common: two sheets that meet in the edge alone would come apart at the goal.
+bool has_doubles_at(const Corner_mesh& corners, Mesh::Vertex_index v)
+{
+  const auto faces = corners.mesh().faces_around_target(corners.mesh().halfedge(v));
+  return corners.may_have_doubles() &&
+         std::any_of(faces.begin(), faces.end(), [&](Face face) { return corners.has_doubles(face); });
+}
+
+// Contracts the edges along which the vertices of the mover go, one by one, in the complex of all triangles
+// at mover and goal.
 bool keeps_pieces_of_doubles(const Corner_mesh& corners, Halfedge moving, const Border_rule<Mesh>& rule)
 {
   const Mesh& mesh = corners.mesh();
-  const auto common_vertices = [&](Halfedge h, bool is_at_target) {
-    const Halfedge other = mesh.opposite(h);
-    std::vector<Index> vertices;
-    for (const Halfedge corner : {is_at_target ? h : mesh.prev(h), is_at_target ? mesh.prev(other) : other}) {
-      vertices.push_back(Sewing::none);
-      if (const Face face = mesh.face(corner); !mesh.is_border(corner) && corners.is_own(face))
-        for (Index i = 0; i < corners.ply_count(face); ++i)
-          vertices.push_back(corners.vertex_of(corners.corner_at(corner, i)));
+  std::map<Index, Index> goals; // of vertices
+  bool are_goals_clear = true;
+  const auto add = [&](Halfedge at_mover, Halfedge at_goal) {
+    for (Index i = 0; i < corners.ply_count(mesh.face(at_mover)); ++i) {
+      const Index goal = corners.vertex_of(corners.corner_at(at_goal, i));
+      are_goals_clear &=
+          goals.emplace(corners.vertex_of(corners.corner_at(at_mover, i)), goal).first->second == goal;
     }
-    return first_equal(vertices);
   };
-  const auto common_faces = [&](Halfedge side) {
-    std::vector<Index_triple> triangles; // of vertices, in ascending order
-    const Face face = mesh.face(side);
-    if (mesh.is_border(side) || !corners.is_own(face))
-      return first_equal(triangles);
-    for (Index i = 0; i < corners.ply_count(face); ++i) {
-      const auto& [a, b, c] = corners.corners(face, i);
-      triangles.push_back({corners.vertex_of(a), corners.vertex_of(b), corners.vertex_of(c)});
-      std::sort(triangles.back().begin(), triangles.back().end());
-    }
-    return first_equal(triangles);
-  };
-  const auto meet_in_edge_alone = [&](Halfedge side) {
-    const Face face = mesh.face(side);
-    if (mesh.is_border(side) || !corners.is_own(face))
-      return false;
-    const auto has_common = [&](Halfedge corner, Index i, Index j) {
-      return corners.vertex_of(corners.corner_at(corner, i)) ==
-             corners.vertex_of(corners.corner_at(corner, j));
-    };
-    for (Index i = 0; i < corners.ply_count(face); ++i)
-      for (Index j = 0; j < i; ++j)
-        if (has_common(side, i, j) && has_common(mesh.prev(side), i, j) && !has_common(mesh.next(side), i, j))
-          return true;
-    return false;
-  };
-  const auto at_mover = common_vertices(moving, false);
-  if (at_mover != common_vertices(moving, true))
-    return false;
   for (const Halfedge side : {moving, mesh.opposite(moving)})
-    for (const Halfedge h : {mesh.next(side), mesh.prev(side)})
-      if (!mesh.is_border(mesh.edge(h)) && !rule.is_line(mesh.edge(h)) && !mesh.is_border(side) &&
-          common_faces(h) != common_faces(mesh.opposite(h)))
-        return false;
-  if (!rule.is_line(mesh.edge(moving)))
-    return !meet_in_edge_alone(moving) && !meet_in_edge_alone(mesh.opposite(moving));
-  for (const Halfedge h : mesh.halfedges_around_target(mesh.opposite(moving)))
-    if (h != mesh.opposite(moving) && rule.is_line(mesh.edge(h)) &&
-        (at_mover != common_vertices(h, false) || common_faces(moving) != common_faces(h) ||
-         common_faces(mesh.opposite(moving)) != common_faces(mesh.opposite(h))))
-      return false;
-  return true;
+    if (!mesh.is_border(side)) {
+      const auto [to_mover, to_goal] = corners.halfedges_to_ends(moving, side);
+      add(to_mover, to_goal);
+    }
+  corners.for_each_changed_face(moving, rule, add);
+  if (!are_goals_clear)
+    return false;
+  Vertex_complex complex;
+  add_star(corners, mesh.source(moving), complex);
+  add_star(corners, mesh.target(moving), complex);
+  return std::all_of(goals.begin(), goals.end(),
+                     [&](const auto& motion) { return complex.contract(motion.first, motion.second); });
 }
 
 } // namespace
@@ -109,7 +195,7 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
                        [&](Halfedge h) { return is_open_at_end(h) || is_open_at_end(mesh.opposite(h)); });
   };
   const Halfedge back = mesh.opposite(moving);
-  if (corners.has_doubles(mesh.face(moving)) || corners.has_doubles(mesh.face(back)))
+  if (has_doubles_at(corners, mesh.source(moving)) || has_doubles_at(corners, mesh.target(moving)))
     return keeps_pieces_of_doubles(corners, moving, rule);
   if (!rule.is_line_at_target(back))
     return true;
@@ -122,13 +208,20 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
       return is_open == is_open_ahead;
     // A run ends here. If the moving vertex is its closed end, the next vertex becomes the end instead, and
     // must not be on another run.
-    return is_open || !is_on_boundary(is_open_ahead ? mesh.source(h) : mesh.target(moving));
+    if (is_open || !is_open_ahead)
+      return is_open || !is_on_boundary(mesh.target(moving));
+    if (!has_doubles_at(corners, mesh.source(h)))
+      return !is_on_boundary(mesh.source(h));
+    Vertex_complex star;
+    add_star(corners, mesh.source(h), star);
+    return star.kind(corners.ends_in_soup(mesh.opposite(h)).second) == Vertex_complex::Kind::inner;
   }
   return true;
 }
 
 // Sheets that have one vertex in common where they move must also have one ahead and one behind on their
-// line, and only those: where they come apart, the line of a piece ends.
+// line, and only those: where they come apart, the line of a piece ends. So each sheet with doubles must have
+// one vertex in each of these places, and as many faces ahead as behind.
 bool keeps_joints(const Corner_mesh& corners, Halfedge moving, const std::vector<Halfedge>& others)
 {
   const Mesh& mesh = corners.mesh();
@@ -138,11 +231,20 @@ bool keeps_joints(const Corner_mesh& corners, Halfedge moving, const std::vector
     const auto [mover, ahead] = corners.ends_in_soup(h);
     const bool is_border = mesh.is_border(h);
     const Halfedge to_next = mesh.opposite(is_border ? mesh.prev(h) : mesh.next(mesh.opposite(h)));
-    places.push_back(
-        {mover, ahead, corners.vertex_of(corners.corner_at(is_border ? to_next : mesh.prev(to_next)))});
+    const Halfedge to_behind = is_border ? to_next : mesh.prev(to_next);
+    places.push_back({mover, ahead, corners.vertex_of(corners.corner_at(to_behind))});
+    const Halfedge side = corners.with_face(h);
+    for (const Halfedge to_end : {side, mesh.prev(side), to_behind})
+      if (!corners.have_plies_one_vertex(mesh.face(to_end), corners.place(to_end)))
+        return false;
+    if (!has_doubles_at(corners, mesh.source(h)))
+      return true;
+    Vertex_complex star;
+    add_star(corners, mesh.source(h), star);
+    return star.kind(mover) != Vertex_complex::Kind::singular;
   };
-  add(moving);
-  std::for_each(others.begin(), others.end(), add);
+  if (!add(moving) || !std::all_of(others.begin(), others.end(), add))
+    return false;
   for (const Place& a : places)
     for (const Place& b : places)
       if ((a[0] == b[0]) != (a[1] == b[1]) || (a[0] == b[0]) != (a[2] == b[2]))

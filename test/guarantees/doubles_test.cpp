@@ -245,6 +245,54 @@ TEST(Doubles, ThatMeetInOneEdgeDoNotComeApartThere)
   EXPECT_TRUE(verify(result, prepared).same_topology());
 }
 
+TEST(Doubles, HaveBordersOfTheirOwnThatNoSlitMeets)
+{
+  // A disc with a slit from its border to M, and a hard edge from there on to T in its middle. If M went to
+  // T, so would the end of the slit.
+  Triangle_soup soup = test::soup({{-2, 0, 0},
+                                   {-2, 0, 0},
+                                   {-1, 0, 0},
+                                   {0, 0, 0},
+                                   {-1, 2, 0},
+                                   {-1, -2, 0},
+                                   {1, -1, 0},
+                                   {1, 1, 0},
+                                   {3, -2, 0},
+                                   {3, 2, 0}},
+                                  {{0, 2, 4},
+                                   {2, 3, 4},
+                                   {3, 7, 4},
+                                   {7, 9, 4},
+                                   {1, 5, 2},
+                                   {2, 5, 3},
+                                   {3, 5, 6},
+                                   {6, 5, 8},
+                                   {3, 6, 7},
+                                   {6, 8, 7},
+                                   {7, 8, 9}});
+  soup.normals.values = {{0, 0, 1}, {0, 0.6, 0.8}};
+  for (const Index side : {0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1})
+    soup.normals.of_triangle.push_back({side, side, side});
+  Simplify_options options = to_ratio(0);
+  options.max_normal_change = 180;
+  options.min_aspect_ratio = 0;
+  Prepare_options keeping_normals;
+  keeping_normals.normals = Normals_choice::keep;
+  const auto faces_left = [&] {
+    const Prepared_soup prepared = prepare(soup, keeping_normals);
+    const Simplified_soup result = simplify_soup(prepared, options);
+    EXPECT_TRUE(verify(result, prepared).same_topology());
+    return result.triangles.size();
+  };
+  // A control: without doubles, it does.
+  EXPECT_LT(faces_left(), 9u);
+  // The double has an edge in common with the disc, at T, and a border that begins there.
+  soup.points.push_back({1, 1, 0});
+  soup.triangles.push_back({3, 10, 6});
+  soup.normals.of_triangle.push_back({1, 1, 1});
+  EXPECT_EQ(faces_left(), 12u);
+}
+
 TEST(Doubles, AreRefusedWhereDefectsAre)
 {
   EXPECT_THROW(prepare(double_sided(sheet(2, 2), Vertices::own), with(Defects::refuse)), Input_error);
