@@ -130,6 +130,26 @@ TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)
   EXPECT_EQ(std::size_t(std::count_if(left.begin(), left.end(), is_rough)), rough.triangles.size());
 }
 
+// A flat sheet beside two rough ones, each in a cell: the flat one does more than its share, so that the
+// rough ones, of which one alone would go to theirs, keep nearly all.
+TEST(Cells, DoMoreWhereCollapsesCostLess)
+{
+  const Triangle_soup flat = sheet(40, 40);
+  const auto rough = [&](double from) {
+    return mapped(flat, [=](const Point_3& p) {
+      return Point_3(p.x() + from, p.y(), std::sin(5 * p.x() + 7 * p.y()));
+    });
+  };
+  const Triangle_soup all = joined(joined(flat, rough(50)), rough(100));
+  const Reduction reduction = reduce(all, in_cells(to_ratio(0.7), flat.triangles.size() + 100));
+  EXPECT_EQ(reduction.simplified.report.cells, 4u);
+  EXPECT_GT(reduction.simplified.report.collapses_in_cells, 1000u); // of 1,440
+  const auto& left = reduction.simplified.triangles;
+  const auto is_rough = [&](Index t) { return t >= flat.triangles.size(); };
+  EXPECT_GT(double(std::count_if(left.begin(), left.end(), is_rough)),
+            0.9 * 2 * double(flat.triangles.size()));
+}
+
 // So that the result is even, one cell is not done and the other left out.
 TEST(Cells, AreAllDoneToTheWholeWhoeverWantsToStopMeanwhile)
 {

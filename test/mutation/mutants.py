@@ -556,14 +556,15 @@ group(
     ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
     ("return collapse.cost > limit;", "return false;", "every cell goes to its own cost"),
+    ("return 0.95 * share;", "return 2 * share;", "cells go to the cost that half of them reach"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
     ("      is_at_gap[position] = true;", "      ;", "cells let borders at gaps drift as far as others"),
 )
 group(
     "src/simplify/simplify_soup.cpp",
     ("cells_test:Cells.GoAsFar*",),
-    ("                         }),\n                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));",
-     "                         }), [] {});", "the error counts from what cells have left"),
+    ("                         }),\n                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),",
+     "                         }),", "the error counts from what cells have left"),
 )
 group(
     "src/soup/Parts.cpp",
@@ -640,7 +641,7 @@ group(
     ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test", "obstacle_test"),
     ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices",
      "three faces or more meet in such edges, so that other vertices are at both ends too, and all of them are locked"),
-    ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
+    ("beyond - first != 2 || position(a) == position(b) ||\n", "beyond - first != 2 ||\n", "sides that run the same way are sewn"),
     ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
 )
 group(
