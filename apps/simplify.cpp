@@ -31,6 +31,7 @@
 #include <selvedge/poses.h>
 #include <selvedge/progressive.h>
 #include <selvedge/rounding.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <atomic>
@@ -157,7 +158,7 @@ private:
   {
     if (!has_normals_of_vertices(file.format))
       return;
-    const std::size_t joined = share_vertices_without_normals(file.soup, m_request.normals);
+    const std::size_t joined = share_vertices_without_normals(file.soup, m_normals);
     if (joined == 0)
       return;
     file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
@@ -219,7 +220,8 @@ private:
     }
     drop_parts_of(file);
     drop_attributes_of(file);
-    if (joins_vertices(m_request.normals))
+    m_normals = m_request.progressive.empty() ? suited_to(file.soup, m_request.normals) : m_request.normals;
+    if (joins_vertices(m_normals))
       join_without_normals(file);
     m_report["input"] = input_json(m_request.input, file);
     check_pose_outputs(file.soup.poses);
@@ -258,7 +260,7 @@ private:
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.open_seams = m_request.open_seams;
-    options.normals = m_request.normals;
+    options.normals = m_normals;
     options.orient = m_request.are_faces_oriented;
     options.may_intersect = parts_in_pairs(file.soup, m_request.may_intersect, "--may-intersect");
     keep_from_snapping(options, m_request.intent);
@@ -642,7 +644,8 @@ private:
   Progress_bar m_bar;
   Outcome m_outcome;
   Json m_report = new_report("simplify");
-  std::optional<Log_numbering> m_numbering; // these three are used only when a log is written
+  std::optional<Log_numbering> m_numbering;             // these three are used only when a log is written
+  Normals_choice m_normals = Normals_choice::automatic; // that suits the input
   Log_header m_log_header;
   std::ostringstream m_log;
   std::vector<std::size_t> m_guarded_poses;

@@ -13,6 +13,7 @@
 #include <selvedge/drop_parts.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <chrono>
@@ -47,8 +48,9 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
     throw Argument_error("key_poses: there are no further poses; give poses, or leave it out");
   const app::Thread_limit limit(request.threads);
   Log_header header;
-  if (has_normals_of_vertices && joins_vertices(request.prepare.normals) &&
-      share_vertices_without_normals(input, request.prepare.normals) > 0)
+  const Normals_choice normals = suited_to(input, request.prepare.normals);
+  if (has_normals_of_vertices && joins_vertices(normals) &&
+      share_vertices_without_normals(input, normals) > 0)
     header.normals = Logged_normals::dropped;
   const Log_numbering numbering(input, false);
   header.vertices = input.points.size();
@@ -60,6 +62,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   Prepare_options prepare_options = request.complete_prepare_options();
+  prepare_options.normals = normals;
   prepare_options.may_intersect = parts_in_pairs(input, request.may_intersect, "may_intersect");
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);

@@ -19,7 +19,7 @@ LEVELS = [
     ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
     ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/Simplify_options.h",
                   "include/selvedge/Simplify_report.h"]),
-    ("soups", ["include/selvedge/Triangle_soup.h", "include/selvedge/Parts.h", "include/selvedge/Progression.h", "include/selvedge/rounding.h", "include/selvedge/Border_gaps.h", "include/selvedge/merge.h", "include/selvedge/attributes.h", "include/selvedge/drop_parts.h", "include/selvedge/normals.h",
+    ("soups", ["include/selvedge/Triangle_soup.h", "include/selvedge/Parts.h", "include/selvedge/Progression.h", "include/selvedge/rounding.h", "include/selvedge/Border_gaps.h", "include/selvedge/merge.h", "include/selvedge/attributes.h", "include/selvedge/drop_parts.h", "include/selvedge/normals.h", "include/selvedge/suited_normals.h",
                "include/selvedge/Sewing_notes.h", "include/selvedge/Snapping_notes.h", "include/selvedge/internal/Scale.h",
                "src/soup/"]),
     ("welding", ["src/weld/"]),

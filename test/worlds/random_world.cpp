@@ -15,6 +15,7 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
 #include <selvedge/rounding.h>
+#include <selvedge/suited_normals.h>
 
 #include <nlohmann/json.hpp>
 
@@ -642,6 +643,7 @@ World random_world(std::uint64_t seed)
     world.normals = Normals_choice::mend;
   if (world.seed % 8 == 6) // here as well
     world.normals = Normals_choice::smooth;
+  world.normals = suited_to(world.soup, world.normals);
   if (joins_vertices(world.normals) && !world.soup.normals.empty() && world.seed % 4 != 3 &&
       !world.soup.scene) {
     Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it

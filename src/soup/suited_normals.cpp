@@ -1,0 +1,171 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/suited_normals.h>
+
+#include "Disjoint_sets.h"
+#include "inner_edges.h"
+#include "near_normals.h"
+#include "number_positions.h"
+#include "triangle_normals.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+// Decides whether the lines that normals make are worth their faces.
+
+namespace selvedge {
+namespace {
+
+using internal::dot;
+using internal::Edge_side;
+using shading::difference;
+using shading::unit;
+using shading::Vector;
+
+// The squares of twice the sines of 10° and of 22.5°: of the chords between normals 20° and 45° apart.
+constexpr double s_squared_chord_of_soft = 0.12061, s_squared_chord_of_tangle = 0.58579;
+
+// Fewer edges than this that hang together are no line.
+constexpr std::size_t s_fewest_edges = 3;
+
+// The share of the vertices of a line at which it goes on in one way. With less, it is a tangle.
+constexpr double s_share_of_tangle = 0.7;
+
+// The share of the length of all lines that may be hard.
+constexpr double s_share_of_hard = 0.1;
+
+// Lines that hang together.
+struct Network
+{
+  double length = 0, squared_chords = 0; // the latter by length
+  std::size_t edges = 0, vertices = 0, inner_vertices = 0;
+
+  bool is_hard() const
+  {
+    if (edges < s_fewest_edges || squared_chords < s_squared_chord_of_soft * length)
+      return false;
+    return double(inner_vertices) >= s_share_of_tangle * double(vertices) ||
+           squared_chords >= s_squared_chord_of_tangle * length;
+  }
+};
+
+class Line_networks
+{
+public:
+  explicit Line_networks(const Triangle_soup& soup)
+      : m_soup(soup), m_positions(number_positions(soup.points)), m_sets(soup.points.size()),
+        m_edges_at(soup.points.size(), 0), m_networks(soup.points.size())
+  {
+    std::vector<Index_triple> triples;
+    triples.reserve(soup.triangles.size());
+    for (const auto& [a, b, c] : soup.triangles)
+      triples.push_back({m_positions[a], m_positions[b], m_positions[c]});
+    internal::for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
+      if (!is_line(a, b))
+        return;
+      m_lines.push_back(line_of(a, b));
+      m_sets.unite(a.low, a.high);
+      ++m_edges_at[a.low];
+      ++m_edges_at[a.high];
+    });
+  }
+
+  bool are_soft()
+  {
+    if (m_lines.empty())
+      return false;
+    for (const Line& line : m_lines) {
+      Network& network = m_networks[m_sets.find(line.vertex)];
+      network.length += line.length;
+      network.squared_chords += line.length * line.squared_chord;
+      ++network.edges;
+    }
+    for (std::size_t v = 0; v < m_edges_at.size(); ++v)
+      if (m_edges_at[v] > 0) {
+        Network& network = m_networks[m_sets.find(v)];
+        ++network.vertices;
+        network.inner_vertices += m_edges_at[v] == 2;
+      }
+    double length = 0, hard = 0;
+    for (const Network& network : m_networks) {
+      length += network.length;
+      if (network.is_hard())
+        hard += network.length;
+    }
+    return hard <= s_share_of_hard * length;
+  }
+
+private:
+  // An edge of a line, at one of its vertices.
+  struct Line
+  {
+    Index vertex;
+    double length, squared_chord;
+  };
+
+  template <class Values>
+  static auto value_at(const Values& values, Index corner)
+  {
+    return values.values[values.of_triangle[corner / 3][corner % 3]];
+  }
+
+  bool have_one_uv(Index a, Index b) const
+  {
+    const Corner_values<2>& uvs = m_soup.uvs;
+    if (uvs.empty())
+      return true;
+    const Index of_a = uvs.of_triangle[a / 3][a % 3], of_b = uvs.of_triangle[b / 3][b % 3];
+    return of_a == of_b ||
+           (of_a != uvs.missing && of_b != uvs.missing && uvs.values[of_a] == uvs.values[of_b]);
+  }
+
+  bool have_near_normals(Index a, Index b) const
+  {
+    return are_near_normals(value_at(m_soup.normals, a), value_at(m_soup.normals, b));
+  }
+
+  // Whether normals differ across an edge, and the texture does not.
+  bool is_line(const Edge_side& a, const Edge_side& b) const
+  {
+    return a.low != a.high && have_one_uv(a.at_low, b.at_low) && have_one_uv(a.at_high, b.at_high) &&
+           !(have_near_normals(a.at_low, b.at_low) && have_near_normals(a.at_high, b.at_high));
+  }
+
+  Line line_of(const Edge_side& a, const Edge_side& b) const
+  {
+    const Vector along = difference(m_soup.points[a.low], m_soup.points[a.high]);
+    return {a.low, std::sqrt(dot(along, along)),
+            (squared_chord(a.at_low, b.at_low) + squared_chord(a.at_high, b.at_high)) / 2};
+  }
+
+  double squared_chord(Index a, Index b) const
+  {
+    const Vector u = unit(value_at(m_soup.normals, a)), v = unit(value_at(m_soup.normals, b));
+    const Vector chord{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+    return dot(chord, chord);
+  }
+
+  const Triangle_soup& m_soup;
+  std::vector<Index> m_positions;
+  internal::Disjoint_sets m_sets;      // of positions
+  std::vector<std::size_t> m_edges_at; // by position
+  std::vector<Network> m_networks;     // by set
+  std::vector<Line> m_lines;
+};
+
+} // namespace
+
+Normals_choice suited_to(const Triangle_soup& soup, Normals_choice choice)
+{
+  if (choice != Normals_choice::automatic || soup.normals.empty() || soup.normals.missing ||
+      has_flat_normals(soup))
+    return choice;
+  Cancellation_scope::check();
+  return Line_networks(soup).are_soft() ? Normals_choice::loose : choice;
+}
+
+} // namespace selvedge

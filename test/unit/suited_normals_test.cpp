@@ -1,0 +1,98 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Lines of normals that nobody sees as edges hold no vertices.
+
+#include "support/soups.h"
+
+#include <selvedge/suited_normals.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+using namespace selvedge;
+using selvedge::test::sheet;
+
+namespace {
+
+constexpr Index s_squares = 12;
+
+// A sheet whose normals turn by an angle from one column of squares to the next but one, and all the way
+// along a column by a little, as on a surface that bends.
+Triangle_soup creased(double degrees)
+{
+  const double tangent = std::tan(degrees * std::acos(-1) / 180);
+  Triangle_soup soup = sheet(s_squares, s_squares);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    double least = s_squares;
+    for (const Index v : soup.triangles[t])
+      least = std::min(least, soup.points[v].x());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = soup.points[soup.triangles[t][k]];
+      soup.normals.values.push_back({std::size_t(least) % 4 < 2 ? 0 : tangent, 0.01 * p.y(), 1});
+    }
+    const Index first = Index(3 * t);
+    soup.normals.of_triangle.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+// Gives every other triangle normals that differ from those around it.
+Triangle_soup tangled(double degrees)
+{
+  const double tangent = std::tan(degrees * std::acos(-1) / 180);
+  Triangle_soup soup = creased(0);
+  for (std::size_t t = 0; t < soup.triangles.size(); t += 2)
+    for (const Index number : soup.normals.of_triangle[t])
+      soup.normals.values[number][0] = tangent;
+  return soup;
+}
+
+bool are_lines_soft(const Triangle_soup& soup)
+{
+  return suited_to(soup, Normals_choice::automatic) == Normals_choice::loose;
+}
+
+} // namespace
+
+TEST(Soft_lines, AreThoseAcrossWhichNormalsDifferLittle)
+{
+  EXPECT_TRUE(are_lines_soft(creased(5)));
+  EXPECT_TRUE(are_lines_soft(creased(18)));
+  EXPECT_FALSE(are_lines_soft(creased(22)));
+  EXPECT_FALSE(are_lines_soft(creased(80)));
+}
+
+TEST(Soft_lines, AreTanglesUnlessNormalsDifferByMuch)
+{
+  EXPECT_TRUE(are_lines_soft(tangled(30)));
+  EXPECT_FALSE(are_lines_soft(tangled(60)));
+}
+
+TEST(Soft_lines, AreOneOrTwoEdges)
+{
+  Triangle_soup soup = creased(0);
+  soup.normals.values[soup.normals.of_triangle[100][0]] = {5, 0, 1};
+  EXPECT_TRUE(are_lines_soft(soup));
+}
+
+TEST(Soft_lines, AreNoneWhereTheTextureHasASeam)
+{
+  Triangle_soup soup = creased(5);
+  soup.uvs.of_triangle = soup.normals.of_triangle;
+  for (std::size_t i = 0; i < soup.normals.values.size(); ++i)
+    soup.uvs.values.push_back({double(i), 0});
+  EXPECT_FALSE(are_lines_soft(soup));
+}
+
+TEST(Soft_lines, LetOtherChoicesStay)
+{
+  for (const Normals_choice choice : {Normals_choice::keep, Normals_choice::mend, Normals_choice::recompute,
+                                      Normals_choice::smooth, Normals_choice::drop})
+    EXPECT_EQ(suited_to(creased(5), choice), choice);
+  EXPECT_FALSE(are_lines_soft(sheet(s_squares, s_squares)));
+  EXPECT_FALSE(are_lines_soft(creased(0)));
+}
