@@ -29,6 +29,10 @@ public:
       m_faces.push_back(face);
   }
 
+  // Notes that a vertex may have faces that are not added.
+  void mark_as_part(Index v) { m_parts.push_back(v); }
+  bool is_part(Index v) const { return std::find(m_parts.begin(), m_parts.end(), v) != m_parts.end(); }
+
   // An edge is on a line if it has not two faces. A vertex is inner if its faces are a disc, on a line if
   // they are half-discs with their diameter in common (at a border, one), and singular otherwise.
   enum class Kind { inner, on_line, singular };
@@ -39,19 +43,23 @@ public:
   // - no face beside their edge has its other two edges on lines;
   // - if neither is inner, their edge is on a line, and one of them is not singular.
   // These are the link conditions of Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge
-  // contraction" (1999).
+  // contraction" (1999). A goal that may have other faces counts as singular, and edges between two vertices
+  // that may as on lines. Of v, all faces are there, or all that do not move with others.
   bool contract(Index v, Index goal)
   {
     const Link of_v = link(v), of_goal = link(goal);
     for (const Link_edge& edge : of_v)
       if (std::find(of_goal.begin(), of_goal.end(), edge) != of_goal.end())
         return false;
+    const auto is_on_line = [&](Index end, const Link& of_end, Index x) {
+      return degree(of_end, x) != 2 || (is_part(end) && is_part(x));
+    };
     for (const Index x : nodes(of_v))
       if (x != goal && degree(of_goal, x) > 0 &&
           (std::find(of_v.begin(), of_v.end(), link_edge(goal, x)) == of_v.end() ||
-           (degree(of_v, x) != 2 && degree(of_goal, x) != 2)))
+           (is_on_line(v, of_v, x) && is_on_line(goal, of_goal, x))))
         return false;
-    const Kind kind_of_v = kind_in(of_v), kind_of_goal = kind_in(of_goal);
+    const Kind kind_of_v = kind_in(of_v), kind_of_goal = is_part(goal) ? Kind::singular : kind_in(of_goal);
     if (kind_of_v != Kind::inner && kind_of_goal != Kind::inner && degree(of_v, goal) == 2)
       return false;
     if (kind_of_v == Kind::singular && kind_of_goal == Kind::singular)
@@ -128,6 +136,7 @@ private:
   }
 
   std::vector<Index_triple> m_faces; // with their vertices in ascending order
+  std::vector<Index> m_parts;
 };
 
 void add_star(const Corner_mesh& corners, Mesh::Vertex_index v, Vertex_complex& complex)
@@ -138,6 +147,20 @@ void add_star(const Corner_mesh& corners, Mesh::Vertex_index v, Vertex_complex& 
         const auto& [a, b, c] = corners.corners(face, i);
         complex.add(corners.vertex_of(a), corners.vertex_of(b), corners.vertex_of(c));
       }
+}
+
+// Marks what is at locked vertices around a vertex, and at those that bound no strip: where the mesh is cut,
+// for the sake of non-manifold places, other vertices of it may have the same vertices of the soup.
+void mark_parts(const Corner_mesh& corners, Mesh::Vertex_index v, const Border_rule<Mesh>& rule,
+                Vertex_complex& complex)
+{
+  const Mesh& mesh = corners.mesh();
+  for (const Face face : mesh.faces_around_target(mesh.halfedge(v)))
+    if (corners.is_own(face))
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(face)))
+        if (rule.is_locked(mesh.target(h)) || rule.bounds_no_strip(mesh.target(h)))
+          for (Index i = 0; i < corners.ply_count(face); ++i)
+            complex.mark_as_part(corners.vertex_of(corners.corner_at(h, i)));
 }
 
 bool has_doubles_at(const Corner_mesh& corners, Mesh::Vertex_index v)
@@ -170,8 +193,10 @@ bool keeps_pieces_of_doubles(const Corner_mesh& corners, Halfedge moving, const 
   if (!are_goals_clear)
     return false;
   Vertex_complex complex;
-  add_star(corners, mesh.source(moving), complex);
-  add_star(corners, mesh.target(moving), complex);
+  for (const Mesh::Vertex_index v : {mesh.source(moving), mesh.target(moving)}) {
+    add_star(corners, v, complex);
+    mark_parts(corners, v, rule, complex);
+  }
   return std::all_of(goals.begin(), goals.end(),
                      [&](const auto& motion) { return complex.contract(motion.first, motion.second); });
 }
@@ -214,7 +239,9 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
       return !is_on_boundary(mesh.source(h));
     Vertex_complex star;
     add_star(corners, mesh.source(h), star);
-    return star.kind(corners.ends_in_soup(mesh.opposite(h)).second) == Vertex_complex::Kind::inner;
+    mark_parts(corners, mesh.source(h), rule, star);
+    const Index next = corners.ends_in_soup(mesh.opposite(h)).second;
+    return !star.is_part(next) && star.kind(next) == Vertex_complex::Kind::inner;
   }
   return true;
 }

@@ -293,6 +293,49 @@ TEST(Doubles, HaveBordersOfTheirOwnThatNoSlitMeets)
   EXPECT_EQ(faces_left(), 12u);
 }
 
+TEST(Doubles, AreNotAllOfAPieceWhereTheMeshIsCut)
+{
+  // A strip, two parts of which have doubles with the same outline. One of these parts and its neighbour face
+  // opposite ways, so that the mesh is cut between them. If vertex 2 went to 4, the part would vanish there.
+  const Triangle_soup strip = test::soup({{11, 8, 0},
+                                          {10, 4, 0},
+                                          {9, 9, 0},
+                                          {8, 5, 0},
+                                          {7, 10, 0},
+                                          {6, 6, 0},
+                                          {5, 2, 0},
+                                          {4, 0, 0},
+                                          {3, 11, 0},
+                                          {2, 7, 0},
+                                          {1, 3, 0},
+                                          {0, 1, 0},
+                                          {8, 5, 0},
+                                          {4, 0, 0}},
+                                         {{11, 10, 13},
+                                          {10, 6, 13},
+                                          {4, 5, 8},
+                                          {0, 2, 1},
+                                          {1, 2, 3},
+                                          {2, 4, 3},
+                                          {3, 4, 5},
+                                          {6, 10, 7},
+                                          {7, 10, 11},
+                                          {0, 1, 2},
+                                          {12, 2, 1},
+                                          {12, 4, 2},
+                                          {5, 4, 12},
+                                          {5, 9, 8},
+                                          {10, 5, 6},
+                                          {10, 9, 5}});
+  Simplify_options options = to_ratio(0);
+  options.placement = Placement::optimal;
+  Prepare_options prepare_options = with(Defects::descend);
+  prepare_options.orient = false;
+  const Reduction reduction = reduce(strip, options, prepare_options);
+  EXPECT_TRUE(reduction.verification.same_topology());
+  EXPECT_EQ(reduction.simplified.soup.triangles.size(), 15u);
+}
+
 TEST(Doubles, AreRefusedWhereDefectsAre)
 {
   EXPECT_THROW(prepare(double_sided(sheet(2, 2), Vertices::own), with(Defects::refuse)), Input_error);
