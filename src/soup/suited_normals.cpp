@@ -128,10 +128,19 @@ private:
     return are_near_normals(value_at(m_soup.normals, a), value_at(m_soup.normals, b));
   }
 
-  // Whether normals differ across an edge, and the texture does not.
+  bool have_one_label(Index a, Index b) const
+  {
+    const auto is_one = [&](const Triangle_labels& labels) {
+      return labels.empty() || labels.of_triangle[a / 3] == labels.of_triangle[b / 3];
+    };
+    return is_one(m_soup.groups) && is_one(m_soup.objects) && is_one(m_soup.materials);
+  }
+
+  // Whether normals alone differ across an edge.
   bool is_line(const Edge_side& a, const Edge_side& b) const
   {
-    return a.low != a.high && have_one_uv(a.at_low, b.at_low) && have_one_uv(a.at_high, b.at_high) &&
+    return a.low != a.high && have_one_label(a.at_low, b.at_low) && have_one_uv(a.at_low, b.at_low) &&
+           have_one_uv(a.at_high, b.at_high) &&
            !(have_near_normals(a.at_low, b.at_low) && have_near_normals(a.at_high, b.at_high));
   }
 

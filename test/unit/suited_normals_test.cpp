@@ -88,6 +88,18 @@ TEST(Soft_lines, AreNoneWhereTheTextureHasASeam)
   EXPECT_FALSE(are_lines_soft(soup));
 }
 
+// There, vertices stay on the line in any case.
+TEST(Soft_lines, AreLeftWhereHardOnesLieBetweenGroups)
+{
+  Triangle_soup soup = creased(80);
+  soup.normals.values[soup.normals.of_triangle[100][0]] = {-5, 0, 1};
+  EXPECT_FALSE(are_lines_soft(soup));
+  soup.groups.names = {"even", "odd"};
+  for (const Index_triple& numbers : soup.normals.of_triangle)
+    soup.groups.of_triangle.push_back(soup.normals.values[numbers[1]][0] > 0);
+  EXPECT_TRUE(are_lines_soft(soup));
+}
+
 TEST(Soft_lines, LetOtherChoicesStay)
 {
   for (const Normals_choice choice : {Normals_choice::keep, Normals_choice::mend, Normals_choice::recompute,
