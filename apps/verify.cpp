@@ -430,7 +430,7 @@ Action add_verify(CLI::App& command)
       .add_option(
           "--weld", request->weld_distance,
           "Accept that borders of the original within this length of each other were joined. Give the "
-          "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
+          "value that `simplify` was given.")
       ->check(in_range(0))
       ->type_name("EPS");
   command
