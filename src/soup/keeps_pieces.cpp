@@ -3,11 +3,11 @@
 
 #include "keeps_pieces.h"
 
+#include "Vertex_complex.h"
+
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <map>
-#include <utility>
 
 namespace selvedge {
 namespace {
@@ -15,129 +15,6 @@ namespace {
 using Mesh = Corner_mesh::Mesh;
 using Halfedge = Corner_mesh::Halfedge;
 using Face = Corner_mesh::Face;
-
-// The complex that triangles make of vertices of the soup. It has one face between three vertices, however
-// many triangles have these.
-class Vertex_complex
-{
-public:
-  void add(Index a, Index b, Index c)
-  {
-    Index_triple face{a, b, c};
-    std::sort(face.begin(), face.end());
-    if (std::find(m_faces.begin(), m_faces.end(), face) == m_faces.end())
-      m_faces.push_back(face);
-  }
-
-  // Notes that a vertex may have faces that are not added.
-  void mark_as_part(Index v) { m_parts.push_back(v); }
-  bool is_part(Index v) const { return std::find(m_parts.begin(), m_parts.end(), v) != m_parts.end(); }
-
-  // An edge is on a line if it has not two faces. A vertex is inner if its faces are a disc, on a line if
-  // they are half-discs with their diameter in common (at a border, one), and singular otherwise.
-  enum class Kind { inner, on_line, singular };
-  Kind kind(Index v) const { return kind_in(link(v)); }
-
-  // Contracts the edge from v to `goal` and returns true if that keeps the topology:
-  // - v and `goal` have neighbours in common only beside their edge, and no edge lies opposite both;
-  // - no face beside their edge has its other two edges on lines;
-  // - if neither is inner, their edge is on a line, and one of them is not singular.
-  // These are the link conditions of Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge
-  // contraction" (1999). A goal that may have other faces counts as singular, and edges between two vertices
-  // that may as on lines. Of v, all faces are there, or all that do not move with others.
-  bool contract(Index v, Index goal)
-  {
-    const Link of_v = link(v), of_goal = link(goal);
-    for (const Link_edge& edge : of_v)
-      if (std::find(of_goal.begin(), of_goal.end(), edge) != of_goal.end())
-        return false;
-    const auto is_on_line = [&](Index end, const Link& of_end, Index x) {
-      return degree(of_end, x) != 2 || (is_part(end) && is_part(x));
-    };
-    for (const Index x : nodes(of_v))
-      if (x != goal && degree(of_goal, x) > 0 &&
-          (std::find(of_v.begin(), of_v.end(), link_edge(goal, x)) == of_v.end() ||
-           (is_on_line(v, of_v, x) && is_on_line(goal, of_goal, x))))
-        return false;
-    const Kind kind_of_v = kind_in(of_v), kind_of_goal = is_part(goal) ? Kind::singular : kind_in(of_goal);
-    if (kind_of_v != Kind::inner && kind_of_goal != Kind::inner && degree(of_v, goal) == 2)
-      return false;
-    if (kind_of_v == Kind::singular && kind_of_goal == Kind::singular)
-      return false;
-    const std::vector<Index_triple> faces = std::exchange(m_faces, {});
-    for (Index_triple face : faces) {
-      std::replace(face.begin(), face.end(), v, goal);
-      if (std::count(face.begin(), face.end(), goal) < 2)
-        add(face[0], face[1], face[2]);
-    }
-    return true;
-  }
-
-private:
-  // The edges opposite a vertex, each with its ends in ascending order.
-  using Link_edge = std::pair<Index, Index>;
-  using Link = std::vector<Link_edge>;
-
-  static Link_edge link_edge(Index a, Index b) { return std::minmax(a, b); }
-  Link link(Index v) const
-  {
-    Link result;
-    for (const auto& [a, b, c] : m_faces)
-      if (a == v || b == v || c == v)
-        result.push_back(a == v ? Link_edge(b, c) : b == v ? Link_edge(a, c) : Link_edge(a, b));
-    return result;
-  }
-  static std::vector<Index> nodes(const Link& link)
-  {
-    std::vector<Index> result;
-    for (const auto& [a, b] : link)
-      result.insert(result.end(), {a, b});
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-  static std::ptrdiff_t degree(const Link& link, Index node)
-  {
-    return std::count_if(link.begin(), link.end(),
-                         [&](const Link_edge& edge) { return edge.first == node || edge.second == node; });
-  }
-
-  // Follows the paths from one end of the link, or from any node where it has none, to the other end.
-  static Kind kind_in(const Link& link)
-  {
-    std::vector<Index> ends;
-    for (const Index node : nodes(link))
-      if (degree(link, node) != 2)
-        ends.push_back(node);
-    if (link.empty() || (!ends.empty() && ends.size() != 2))
-      return Kind::singular;
-    const Index first = ends.empty() ? link.front().first : ends[0];
-    const Index last = ends.empty() ? first : ends[1];
-    std::size_t passed = 0;
-    for (auto edge = link.begin(); edge != link.end(); ++edge) {
-      if (edge->first != first && edge->second != first)
-        continue;
-      auto on_path = edge;
-      Index at = first;
-      do {
-        if (at != first)
-          on_path = std::find_if(link.begin(), link.end(), [&](const Link_edge& other) {
-            return other != *on_path && (other.first == at || other.second == at);
-          });
-        at = on_path->first == at ? on_path->second : on_path->first;
-        ++passed;
-      } while (at != first && at != last);
-      if (at != last)
-        return Kind::singular;
-      if (ends.empty())
-        break;
-    }
-    return passed != link.size() ? Kind::singular : ends.empty() ? Kind::inner : Kind::on_line;
-  }
-
-  std::vector<Index_triple> m_faces; // with their vertices in ascending order
-  std::vector<Index> m_parts;
-};
 
 void add_star(const Corner_mesh& corners, Mesh::Vertex_index v, Vertex_complex& complex)
 {

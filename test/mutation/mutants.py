@@ -1589,6 +1589,16 @@ group("src/verify/Shape.cpp", ("verify_match_pieces_test",),
 group("src/soup/normals.cpp", ("normals_test",),
       ("dot(normal_at(normals, t, k), normal) >= 0", "true", "recomputed normals point to the back of a face at a fold"))
 
+group("src/soup/Vertex_complex.cpp", ("vertex_complex_test",),
+      ("if (has_edge(of_goal, a, b))", "if (false)", "an edge may lie opposite both ends"),
+      ("!has_edge(of_v, goal, x) ||", "false ||", "the ends may have any neighbours in common"),
+      (" || (is_on_line(v, of_v, x) && is_on_line(goal, of_goal, x))", "", "two lines become one"),
+      ("degree(of_v, goal) == 2)", "false)", "two lines meet"),
+      ("kind_of_v == Kind::singular && kind_of_goal == Kind::singular", "false", "two singular vertices become one"),
+      ("is_part(goal) ? Kind::singular : kind_in(of_goal)", "kind_in(of_goal)", "a goal has no faces beyond a cut"),
+      ("|| (is_part(end) && is_part(x))", "", "an edge between two vertices at cuts is on no line"),
+      ("passed != link.size() ? Kind::singular : ", "", "a vertex where two discs meet is inner"))
+
 group("src/simplify/reduce_in_cells.cpp", ("missed_target_test",),
       ("  options.least_faces.clear();", "", "no cell does anything where the whole has a least number of faces"))
 
