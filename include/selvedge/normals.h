@@ -18,7 +18,8 @@ namespace selvedge {
 /// normals of its own.
 enum class Normals_choice {
   automatic, ///< as `mend`; but those that are kept then give way to others, with which the result shades
-             ///< most like the original (`fit_normals`)
+             ///< most like the original (`fit_normals`). The program takes `loose` for it where `suited_to`
+             ///< does
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   mend,      ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
              ///< kept, those that are nearly alike at a vertex as one (`join_near_normals`), and mended
