@@ -181,10 +181,10 @@ private:
 };
 
 /// Returns which share of its movable vertices a cell collapses: more than of all, since there are to be more
-/// collapses where they cost less than elsewhere.
+/// collapses where they cost less than elsewhere. A share is above 1 where the target cannot be reached.
 double share_of_cell(double share)
 {
-  return share * (1 + 0.3 * (1 - share));
+  return share * (1 + 0.3 * std::max(0.0, 1 - share));
 }
 
 /// Returns which share of their movable vertices all cells collapse together. The rest is for the reduction

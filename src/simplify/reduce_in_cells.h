@@ -23,7 +23,7 @@ struct Cell_context
   double diagonal;
   Simplify_progress progress;
 
-  /// The share of the movable vertices that is to be collapsed.
+  /// The share of the movable vertices that is to be collapsed; above 1 where the target cannot be reached.
   double share;
 };
 
