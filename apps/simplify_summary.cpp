@@ -538,7 +538,8 @@ bool would_new_places_help(const Simplify_request& request, const Prepared_soup&
          level.verification.distances->original_to_result.root_mean_square > near;
 }
 
-void print_normals(std::ostream& stream, Normals_treatment treatment, const Simplified_soup& result)
+void print_normals(std::ostream& stream, Normals_choice choice, Normals_treatment treatment,
+                   const Simplified_soup& result)
 {
   const std::size_t others = std::max(result.fitted_normals, result.mended_normals);
   if (treatment == Normals_treatment::smoothed)
@@ -549,6 +550,8 @@ void print_normals(std::ostream& stream, Normals_treatment treatment, const Simp
   else if (others > 0)
     stream << "\nnormals: kept, but for " << counted(others, "corner")
            << " with a new one, as the old one is too far from the normal of the face";
+  if (choice == Normals_choice::automatic && treatment == Normals_treatment::picked)
+    stream << "\nhard edges: hardly any, so that none holds vertices (--normals mend keeps them all)";
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
@@ -623,7 +626,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
   if (has_normals)
-    print_normals(stream, prepared.normals, result);
+    print_normals(stream, request.normals, prepared.normals, result);
   if (polygons.input > 0 && has_polygons)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

@@ -148,6 +148,7 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
         run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1", "--normals",
                  choice, "--report", report, "--log", folder / "log"});
     EXPECT_NE(loose.out.find("target 3 reached"), std::string::npos) << loose.out;
+    EXPECT_EQ(loose.out.find("hard edges: hardly any") != std::string::npos, choice == "auto") << loose.out;
     EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["normals"], "picked");
     EXPECT_EQ(run_app({"verify", folder / "out.ply", "--against", folder / "in.ply"}).code, 0);
     EXPECT_EQ(run_app({"replay", folder / "in.ply", folder / "log"}).code, 0);
