@@ -62,8 +62,7 @@ Mesh_format output_format(const fs::path& path)
   try {
     return mesh_format(path);
   } catch (const Input_error& error) {
-    const std::string message = error.what();
-    throw Argument_error(message.substr(0, message.rfind(';')) + "; choose a name with one of these endings");
+    throw Argument_error(error.what());
   }
 }
 

@@ -644,8 +644,8 @@ private:
   Progress_bar m_bar;
   Outcome m_outcome;
   Json m_report = new_report("simplify");
-  std::optional<Log_numbering> m_numbering;             // these three are used only when a log is written
   Normals_choice m_normals = Normals_choice::automatic; // that suits the input
+  std::optional<Log_numbering> m_numbering;             // these three are used only when a log is written
   Log_header m_log_header;
   std::ostringstream m_log;
   std::vector<std::size_t> m_guarded_poses;

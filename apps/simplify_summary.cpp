@@ -420,6 +420,19 @@ void print_poses(std::ostream& stream, const Level& level, Defects defects)
                    : "none new");
 }
 
+// Names the first pose that seems to be in another unit.
+void print_doubtful_pose(std::ostream& stream, const Triangle_soup& soup)
+{
+  if (soup.poses.empty())
+    return;
+  const CGAL::Bbox_3 box = box_of(soup.points, soup.triangles);
+  for (const Pose& pose : soup.poses)
+    if (const std::string doubt = doubt_of_unit(box, box_of(pose.points, soup.triangles)); !doubt.empty()) {
+      stream << "  pose '" << pose.name << "' is " << doubt << '\n';
+      return;
+    }
+}
+
 } // namespace
 
 std::string name_of(const Level& level)
@@ -446,13 +459,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
     const std::string doubt = doubt_of_obstacle(prepared.soup, prepared.obstacle);
     stream << (doubt.empty() ? "" : ", ") << doubt << '\n';
   }
-  const CGAL::Bbox_3 box = box_of(prepared.soup.points, prepared.soup.triangles);
-  for (const Pose& pose : prepared.soup.poses)
-    if (const std::string doubt = doubt_of_unit(box, box_of(pose.points, prepared.soup.triangles));
-        !doubt.empty()) {
-      stream << "  pose '" << pose.name << "' is " << doubt << '\n';
-      break;
-    }
+  print_doubtful_pose(stream, prepared.soup);
   if (const std::size_t open = prepared.left_out_faces_that_open; open > 0)
     stream << "  " << with_commas(open)
            << " of the degenerate faces open when morph targets or bones move, like "

@@ -222,9 +222,9 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Triangle_
             << ", Euler characteristic " << euler << '\n';
   for (const std::string& note : describe(mesh.notes))
     std::cout << "  " << note << '\n';
-  if (const std::string doubt = doubt_of_obstacle(mesh.soup, obstacle);
-      !request.obstacle.empty() && !doubt.empty())
-    std::cout << "  obstacle: " << doubt << '\n';
+  if (!request.obstacle.empty())
+    if (const std::string doubt = doubt_of_obstacle(mesh.soup, obstacle); !doubt.empty())
+      std::cout << "  obstacle: " << doubt << '\n';
 
   for (const Verification::Permitted& parts : verification.permitted)
     std::cout << "may intersect: " << counted(parts.pairs, "pair") << " between '" << parts.first << "' and '"

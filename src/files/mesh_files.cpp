@@ -31,6 +31,11 @@
 namespace selvedge {
 namespace {
 
+[[noreturn]] void refuse_folder(const std::filesystem::path& path)
+{
+  throw Input_error(path.string() + ": is a folder; name a mesh file in it");
+}
+
 std::string bytes_of_file(const std::filesystem::path& path)
 {
   const std::string name = path.string();
@@ -39,7 +44,7 @@ std::string bytes_of_file(const std::filesystem::path& path)
   if (!std::filesystem::exists(status))
     throw Input_error(name + ": there is no such file");
   if (std::filesystem::is_directory(status))
-    throw Input_error(name + ": is a folder; name a mesh file in it");
+    refuse_folder(path);
   files::Input_descriptor file(path);
   constexpr std::size_t least = 1 << 16, most = 1 << 24;
   std::string contents;
@@ -241,11 +246,11 @@ Mesh_format mesh_format(const std::filesystem::path& path)
   if (extension == ".gltf")
     return Mesh_format::gltf;
   if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
-    throw Input_error(path.string() + ": is a folder; name a mesh file in it");
+    refuse_folder(path);
   throw Input_error(
       path.string() +
       ": the name does not end in .obj, .off, .ply, .stl, .glb, .gltf or .vrm, with or without .gz; "
-      "rename or convert the file");
+      "choose a name with one of these endings, or convert the file");
 }
 
 void require_avatar(const std::filesystem::path& path, const Triangle_soup& soup)

@@ -168,6 +168,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--wish"}, "--wish"},
       {{"simplify", in, "-o", folder / "out.xyz", "--ratio", "0.5"},
        "choose a name with one of these endings"},
+      {{"simplify", in, "-o", folder / ".", "--ratio", "0.5"}, "is a folder; name a mesh file in it"},
       {{"simplify", folder / "absent.obj", "-o", folder / "out.xyz", "--ratio", "0.5"},
        "out.xyz"}, // before any work
       {{"simplify", in, "-o", folder / "a.vrm", "--ratio", "0.5"}, "a.vrm: a .vrm file holds a VRM avatar"},
