@@ -4,10 +4,14 @@
 #include "Vertex_complex.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace selvedge {
 namespace {
 
+using Kind = Vertex_complex::Kind;
+
+// The edges opposite a vertex, each with its ends in ascending order.
 using Link_edge = std::pair<Index, Index>;
 using Link = std::vector<Link_edge>;
 
@@ -36,54 +40,17 @@ std::vector<Index> nodes(const Link& link)
   return result;
 }
 
-} // namespace
-
-void Vertex_complex::add(Index a, Index b, Index c)
-{
-  Index_triple face{a, b, c};
-  std::sort(face.begin(), face.end());
-  if (std::find(m_faces.begin(), m_faces.end(), face) == m_faces.end())
-    m_faces.push_back(face);
-}
-
-bool Vertex_complex::contract(Index v, Index goal)
-{
-  const Link of_v = link(v), of_goal = link(goal);
-  for (const auto& [a, b] : of_v)
-    if (has_edge(of_goal, a, b))
-      return false;
-  const auto is_on_line = [&](Index end, const Link& of_end, Index x) {
-    return degree(of_end, x) != 2 || (is_part(end) && is_part(x));
-  };
-  for (const Index x : nodes(of_v))
-    if (x != goal && degree(of_goal, x) > 0 &&
-        (!has_edge(of_v, goal, x) || (is_on_line(v, of_v, x) && is_on_line(goal, of_goal, x))))
-      return false;
-  const Kind kind_of_v = kind_in(of_v), kind_of_goal = is_part(goal) ? Kind::singular : kind_in(of_goal);
-  if (kind_of_v != Kind::inner && kind_of_goal != Kind::inner && degree(of_v, goal) == 2)
-    return false;
-  if (kind_of_v == Kind::singular && kind_of_goal == Kind::singular)
-    return false;
-  const std::vector<Index_triple> faces = std::exchange(m_faces, {});
-  for (Index_triple face : faces) {
-    std::replace(face.begin(), face.end(), v, goal);
-    if (std::count(face.begin(), face.end(), goal) < 2)
-      add(face[0], face[1], face[2]);
-  }
-  return true;
-}
-
-Vertex_complex::Link Vertex_complex::link(Index v) const
+Link link_of(const std::vector<Index_triple>& faces, Index v)
 {
   Link result;
-  for (const auto& [a, b, c] : m_faces)
+  for (const auto& [a, b, c] : faces)
     if (a == v || b == v || c == v)
       result.push_back(a == v ? Link_edge(b, c) : b == v ? Link_edge(a, c) : Link_edge(a, b));
   return result;
 }
 
 // Follows the paths from one end of the link, or from any node where it has none, to the other end.
-Vertex_complex::Kind Vertex_complex::kind_in(const Link& link)
+Kind kind_in(const Link& link)
 {
   std::vector<Index> ends;
   for (const Index node : nodes(link))
@@ -113,6 +80,48 @@ Vertex_complex::Kind Vertex_complex::kind_in(const Link& link)
       break;
   }
   return passed != link.size() ? Kind::singular : ends.empty() ? Kind::inner : Kind::on_line;
+}
+
+} // namespace
+
+void Vertex_complex::add(Index a, Index b, Index c)
+{
+  Index_triple face{a, b, c};
+  std::sort(face.begin(), face.end());
+  if (std::find(m_faces.begin(), m_faces.end(), face) == m_faces.end())
+    m_faces.push_back(face);
+}
+
+Vertex_complex::Kind Vertex_complex::kind(Index v) const
+{
+  return kind_in(link_of(m_faces, v));
+}
+
+bool Vertex_complex::contract(Index v, Index goal)
+{
+  const Link of_v = link_of(m_faces, v), of_goal = link_of(m_faces, goal);
+  for (const auto& [a, b] : of_v)
+    if (has_edge(of_goal, a, b))
+      return false;
+  const auto is_on_line = [&](Index end, const Link& of_end, Index x) {
+    return degree(of_end, x) != 2 || (is_part(end) && is_part(x));
+  };
+  for (const Index x : nodes(of_v))
+    if (x != goal && degree(of_goal, x) > 0 &&
+        (!has_edge(of_v, goal, x) || (is_on_line(v, of_v, x) && is_on_line(goal, of_goal, x))))
+      return false;
+  const Kind kind_of_v = kind_in(of_v), kind_of_goal = is_part(goal) ? Kind::singular : kind_in(of_goal);
+  if (kind_of_v != Kind::inner && kind_of_goal != Kind::inner && degree(of_v, goal) == 2)
+    return false;
+  if (kind_of_v == Kind::singular && kind_of_goal == Kind::singular)
+    return false;
+  const std::vector<Index_triple> faces = std::exchange(m_faces, {});
+  for (Index_triple face : faces) {
+    std::replace(face.begin(), face.end(), v, goal);
+    if (std::count(face.begin(), face.end(), goal) < 2)
+      add(face[0], face[1], face[2]);
+  }
+  return true;
 }
 
 } // namespace selvedge

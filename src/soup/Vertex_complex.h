@@ -7,7 +7,6 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -31,7 +30,7 @@ public:
   bool is_part(Index v) const { return std::find(m_parts.begin(), m_parts.end(), v) != m_parts.end(); }
 
   /// Returns what kind of vertex v is by the faces that were added.
-  Kind kind(Index v) const { return kind_in(link(v)); }
+  Kind kind(Index v) const;
 
   /// Contracts the edge from v to `goal` and returns true if these conditions tell that the complex keeps its
   /// topology; else returns false, and does nothing:
@@ -48,13 +47,6 @@ public:
   bool contract(Index v, Index goal);
 
 private:
-  // The edges opposite a vertex, each with its ends in ascending order.
-  using Link_edge = std::pair<Index, Index>;
-  using Link = std::vector<Link_edge>;
-
-  Link link(Index v) const;
-  static Kind kind_in(const Link& link);
-
   std::vector<Index_triple> m_faces; // with their vertices in ascending order
   std::vector<Index> m_parts;
 };
