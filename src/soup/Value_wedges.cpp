@@ -28,8 +28,9 @@ Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& s
   std::vector<Index> wedges_at(mesh().number_of_vertices(), 0);
   for (const Mesh::Vertex_index v : vertices)
     ++wedges_at[v];
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
+  m_is_alone.reserve(vertices.size());
+  for (const Mesh::Vertex_index v : vertices)
+    m_is_alone.push_back(wedges_at[v] == 1);
   Cancellation_poll poll;
   for (const Corner_mesh::Face face : mesh().faces()) {
     poll();
@@ -66,7 +67,7 @@ void Value_wedges<dimension>::for_each_moved_wedge(Halfedge moving, const Functi
     const Index wedge = number_at(from);
     if (wedge != done)
       function(wedge, number_at(to));
-    if (m_wedges[wedge].is_alone)
+    if (m_is_alone[wedge])
       return;
     done = wedge;
   }

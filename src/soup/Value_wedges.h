@@ -60,7 +60,6 @@ private:
   {
     Quadric quadric; // its origin is the wedge
     Value value;
-    bool is_alone; // the only wedge at its vertex, and stays so: lines neither begin nor end later
 
     Value value_motion(const Value& to) const
     {
@@ -98,6 +97,8 @@ private:
   double m_unit;
   std::vector<Index_triple> m_numbers; // of wedges: by face, for each of its corners
   std::vector<Wedge> m_wedges;
+  std::vector<bool>
+      m_is_alone; // by wedge: the only one at its vertex, and stays so, as lines neither begin nor end later
 };
 
 using Texture_wedges = Value_wedges<2>;

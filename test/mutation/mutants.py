@@ -886,7 +886,7 @@ group(
 group(
     "src/soup/Value_wedges.cpp",
     ("value_wedges_test",),
-    ("wedges_at[vertices[i]] == 1", "true", "the texture beyond a seam costs nothing"),
+    ("wedges_at[v] == 1", "true", "the texture beyond a seam costs nothing"),
     ("if (wedge != done)", "if (true)", "a wedge on both sides of an edge counts twice"),
 )
 group(
@@ -1084,6 +1084,16 @@ group(
     ("loop_test",),
     ("*selected_at > cost && !m_queue.would_be_first(edge_id, *selected_at)", "false", "an edge comes at the bound of its cost"),
     ("        record.is_outdated = true;\n        return FT(*bound);", "        return FT(*bound);", "the bound is taken for the cost"),
+)
+group(
+    loop + "Element_numbers.h",
+    ("plug_in_test",),
+    ("return std::size_t(element) == number++;", "return number++ < m_size;", "elements are numbered as if none had been removed"),
+)
+group(
+    loop + "Intersection_guard.h",
+    ("plug_in_test",),
+    (" && m_faces.are_in_place()", "", "a mesh with other faces between the same vertices is taken"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Edge_collapse.h",

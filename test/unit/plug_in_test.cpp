@@ -23,6 +23,7 @@
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <gtest/gtest.h>
 
@@ -297,6 +298,42 @@ TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)
   CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
   EXPECT_THROW(collapse(true, mesh, CGAL::parameters::filter(filter).visitor(filter.visitor())),
                Argument_error);
+}
+
+TEST(Intersection_filter, IsRefusedForAMeshWhoseEdgeWasFlippedSinceItWasMade)
+{
+  Mesh mesh = waves();
+  const Intersection_filter<Mesh> filter(mesh);
+  const auto edge = std::find_if(edges(mesh).begin(), edges(mesh).end(),
+                                 [&](Mesh::Edge_index e) { return !mesh.is_border(e); });
+  CGAL::Euler::flip_edge(halfedge(*edge, mesh), mesh);
+  EXPECT_NE(refusal(true, mesh, filter, filter.visitor()).find("has changed"), std::string::npos);
+}
+
+TEST(Intersection_filter, GuardsAMeshThatHasRemovedElements)
+{
+  for (const bool is_guarded : {true, false}) {
+    Mesh mesh = waves();
+    const Intersection_filter<Mesh> first(mesh);
+    selvedge::edge_collapse(mesh, Edge_ratio_stop(0.97),
+                            CGAL::parameters::filter(first).visitor(first.visitor()));
+    ASSERT_TRUE(mesh.has_garbage());
+    const Intersection_filter<Mesh> second(mesh);
+    EXPECT_GT(is_guarded ? collapse(true, mesh, CGAL::parameters::filter(second).visitor(second.visitor()))
+                         : collapse(true, mesh, CGAL::parameters::all_default()),
+              0);
+    EXPECT_EQ(is_embedded(soup_of(mesh)), is_guarded);
+  }
+}
+
+TEST(Intersection_filter, IsRefusedForAMeshThatWasNumberedAnewBetweenItsRuns)
+{
+  Mesh mesh = waves();
+  const Intersection_filter<Mesh> filter(mesh);
+  for (int run = 0; run < 2; ++run)
+    EXPECT_EQ(refusal(true, mesh, filter, filter.visitor()), "no refusal");
+  mesh.collect_garbage();
+  EXPECT_NE(refusal(true, mesh, filter, filter.visitor()).find("has changed"), std::string::npos);
 }
 
 TEST(Intersection_filter, IsRefusedForAMeshWhoseVerticesHaveMovedAndForAnother)

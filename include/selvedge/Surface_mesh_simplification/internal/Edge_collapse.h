@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
+#include <selvedge/Surface_mesh_simplification/internal/Element_numbers.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
@@ -23,6 +24,7 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -160,7 +162,7 @@ public:
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
         m_visitor(visitor), m_is_geometry_tested(is_geometry_tested),
-        m_expected_collapses(expected_collapses), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)),
+        m_expected_collapses(expected_collapses), m_records(num_edges(mesh)),
         m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
@@ -181,15 +183,37 @@ public:
   }
 
 private:
+  // Stores the halfedges of edges unless these have the numbers that the mesh gives them.
+  void find_halfedges()
+  {
+    if constexpr (Are_numbers<Halfedge>::value)
+      if (std::all_of(edges(m_mesh).begin(), edges(m_mesh).end(), [this](Edge e) {
+            const Halfedge h = halfedge(e, m_mesh);
+            return std::size_t(h) == 2 * std::size_t(id(h));
+          }))
+        return;
+    m_halfedges.resize(num_edges(m_mesh));
+    for (const Edge e : edges(m_mesh))
+      m_halfedges[id(halfedge(e, m_mesh))] = halfedge(e, m_mesh);
+  }
+
+  Halfedge halfedge_of(Id edge) const
+  {
+    if constexpr (Are_numbers<Halfedge>::value)
+      if (m_halfedges.empty())
+        return Halfedge(2 * edge);
+    return m_halfedges[edge];
+  }
+
   void collect()
   {
     for (const Vertex v : vertices(m_mesh))
       put(m_has_stale_edges, v, false);
+    find_halfedges();
     Cancellation_poll poll;
     for (const Edge e : edges(m_mesh)) {
       poll();
       const Halfedge h = halfedge(e, m_mesh);
-      m_halfedges[id(h)] = h;
       m_records[id(h)].rank = 0;
       ++m_edges;
       if (get(m_is_constrained, e))
@@ -217,7 +241,7 @@ private:
     const auto [cost, edge_id] = m_queue.pop();
     Edge_record& record = m_records[edge_id];
     record.is_queued = false;
-    const Profile of_edge = profile(m_halfedges[edge_id]);
+    const Profile of_edge = profile(halfedge_of(edge_id));
     Optional_cost selected_at(cost);
     if (record.is_outdated) {
       record.is_outdated = false;
@@ -279,7 +303,7 @@ private:
   void try_along(Halfedge moving)
   {
     const Id edge_id = id(moving);
-    const Profile of_edge = profile(m_halfedges[edge_id]);
+    const Profile of_edge = profile(halfedge_of(edge_id));
     if (get(m_is_constrained, edge(moving, m_mesh)) || !m_topology.is_kept(of_edge, m_is_constrained))
       return;
     const Collapse_of_edge collapse = Collapse_of_edge::along(of_edge, moving);
@@ -298,7 +322,7 @@ private:
       return;
     std::vector<Vertex> all{first};
     for (const Halfedge moving : companions) {
-      const Profile of_companion = profile(m_halfedges[id(moving)]);
+      const Profile of_companion = profile(halfedge_of(id(moving)));
       all.push_back(perform(Collapse_of_edge::along(of_companion, moving), id(moving)));
     }
     for (const Vertex kept : all)
@@ -372,7 +396,7 @@ private:
     if constexpr (Has_blockers<Filter>::value)
       m_waiting.take_released([this](Id edge_id) {
         if (m_records[edge_id].rank != s_gone && is_stale(m_records[edge_id]))
-          refresh(m_halfedges[edge_id]);
+          refresh(halfedge_of(edge_id));
       });
   }
 
@@ -402,7 +426,7 @@ private:
     Edge_record& record = m_records[edge_id];
     record.rank = 0;
     record.is_outdated = false;
-    if (const Optional_cost cost = bound_or_cost_of(profile(m_halfedges[edge_id]), record))
+    if (const Optional_cost cost = bound_or_cost_of(profile(halfedge_of(edge_id)), record))
       enqueue(edge_id, *cost);
     else
       dequeue(edge_id);
@@ -520,7 +544,7 @@ private:
 
   Cancellation_poll m_poll;
 
-  std::vector<Halfedge> m_halfedges;  // by edge
+  std::vector<Halfedge> m_halfedges;  // by edge; or empty
   std::vector<Edge_record> m_records; // by edge
   Queue m_queue;
   Waiting_edges<TriangleMesh> m_waiting;

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 
+#include <selvedge/Surface_mesh_simplification/internal/Element_numbers.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/geometry/internal/Star_pack_filter.h>
 #include <selvedge/internal/Vector_of_doubles.h>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -58,21 +60,14 @@ public:
   using Corners = std::array<Number, 3>;
 
   Face_table(const TriangleMesh& mesh, const VertexTable& vertices, FaceIndex&& empty_index)
-      : m_mesh(mesh), m_vertices(vertices), m_index(std::move(empty_index)),
-        m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh))
+      : m_mesh(mesh), m_vertices(vertices), m_index(std::move(empty_index)), m_numbers(mesh, faces(mesh)),
+        m_size(m_numbers.size())
   {
-    m_faces.reserve(num_faces(mesh));
-    m_corners.reserve(num_faces(mesh));
-    std::vector<Id> ids;
-    ids.reserve(num_faces(mesh));
-    for (const Face face : faces(mesh)) {
-      const Id id = Id(m_faces.size());
-      put(m_ids, face, id);
-      m_faces.push_back(face);
+    m_corners.reserve(m_size);
+    for (const Face face : faces(mesh))
       m_corners.push_back(find_corners(halfedge(face, mesh)));
-      ids.push_back(id);
-    }
-    m_size = m_faces.size();
+    std::vector<Id> ids(m_size);
+    std::iota(ids.begin(), ids.end(), Id(0));
     const auto box_of = [this](Id id) { return box(id); };
     if constexpr (s_are_corners_wanted)
       m_index.build(ids, box_of, coordinates());
@@ -80,8 +75,8 @@ public:
       m_index.build(ids, box_of);
   }
 
-  Face descriptor(Id id) const { return m_faces[id]; }
-  Id id(Face face) const { return get(m_ids, face); }
+  Face descriptor(Id id) const { return m_numbers.element(id); }
+  Id id(Face face) const { return m_numbers.number(face); }
   const Corners& corners(Id id) const { return m_corners[id]; }
   bool is_at(Id id, Number vertex) const
   {
@@ -156,7 +151,7 @@ public:
   {
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!CGAL::is_border(h, m_mesh)) {
-        const Id id = get(m_ids, face(h, m_mesh));
+        const Id id = m_numbers.number(face(h, m_mesh));
         m_corners[id] = find_corners(h);
         if constexpr (s_are_corners_wanted)
           m_index.set(id, box(id), coordinates());
@@ -167,6 +162,21 @@ public:
   }
 
   const FaceIndex& index() const { return m_index; }
+
+  /// Returns whether all faces of the mesh have the corners that they have here.
+  bool are_in_place() const
+  {
+    const auto all = faces(m_mesh);
+    return std::all_of(all.begin(), all.end(), [this](Face face) {
+      const Id of_face = id(face);
+      if (of_face >= m_corners.size())
+        return false;
+      Corners before = corners(of_face), now = find_corners(halfedge(face, m_mesh));
+      std::rotate(before.begin(), std::min_element(before.begin(), before.end()), before.end());
+      std::rotate(now.begin(), std::min_element(now.begin(), now.end()), now.end());
+      return before == now;
+    });
+  }
 
   /// Returns the number of faces that have not been removed.
   std::size_t size() const { return m_size; }
@@ -258,10 +268,9 @@ private:
   const TriangleMesh& m_mesh;
   const VertexTable& m_vertices;
   FaceIndex m_index;
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
-  std::size_t m_size = 0;
+  Element_numbers<TriangleMesh, Face, CGAL::dynamic_face_property_t> m_numbers;
+  std::size_t m_size;
   bool m_is_number_current = false; // whether num_faces() counts no removed faces, as far as is known
-  std::vector<Face> m_faces;        // by number
   std::vector<Corners> m_corners;   // by number: in the mesh, they are five look-ups away
   std::vector<Star_pack_filter::Pack> m_packs; // a buffer
 };

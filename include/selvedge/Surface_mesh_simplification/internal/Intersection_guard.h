@@ -131,7 +131,7 @@ public:
       throw Argument_error(
           "an exception has ended an earlier run within a collapse, of which the intersection filter was not "
           "told the end; make the filter anew");
-    if (!m_vertices.are_in_place(mesh))
+    if (!(m_vertices.are_in_place(mesh) && m_faces.are_in_place()))
       refuse_changed_mesh();
     m_is_run_announced = m_is_announcement_due = true;
   }

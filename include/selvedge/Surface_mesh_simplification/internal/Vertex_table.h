@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VERTEX_TABLE_H
 
 #include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/internal/Element_numbers.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -38,11 +39,10 @@ public:
   using Mark = std::uint32_t; ///< less than 2^31
 
   Vertex_table(const TriangleMesh& mesh, const VertexPointMap& points)
-      : m_points(points), m_numbers(get(CGAL::dynamic_vertex_property_t<Number>(), mesh))
+      : m_points(points), m_numbers(mesh, vertices(mesh))
   {
-    m_records.reserve(num_vertices(mesh));
+    m_records.reserve(m_numbers.size());
     for (const Vertex v : vertices(mesh)) {
-      put(m_numbers, v, Number(m_records.size()));
       m_records.push_back({get(m_points, v), 0, 0, false});
       const Point& p = m_records.back().point;
       if (!(CGAL::is_finite(p.x()) && CGAL::is_finite(p.y()) && CGAL::is_finite(p.z())))
@@ -67,7 +67,7 @@ public:
     });
   }
 
-  Number number(Vertex v) const { return get(m_numbers, v); }
+  Number number(Vertex v) const { return m_numbers.number(v); }
   const Point& point(Number v) const { return m_records[v].point; }
 
   /// Returns whether other vertices are at the same position.
@@ -193,7 +193,7 @@ private:
   }
 
   VertexPointMap m_points;
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Number>>::const_type m_numbers;
+  Element_numbers<TriangleMesh, Vertex, CGAL::dynamic_vertex_property_t> m_numbers;
   std::vector<Record> m_records;              // by number
   std::vector<std::vector<Vertex>> m_classes; // the coincident vertices at each position
   std::vector<Number> m_class_of_vertex;      // by number; empty if none are coincident
