@@ -238,7 +238,7 @@ std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& 
       hindrances[Hindrance::seam] + hindrances[Hindrance::texture] + hindrances[Hindrance::line_end];
   const bool is_texture_left = !options.text.empty() && options.edges >= by_seams;
   std::pair<std::string, std::size_t> most;
-  for (const auto& [name, count] : seams_of_attributes(prepared.soup, prepared.positions))
+  for (const auto& [name, count] : seams_of_attributes(prepared))
     if (count > most.second && !(is_texture_left && name == "texture"))
       most = {name, count};
   if (10 * most.second < hindrances.total())

@@ -7,6 +7,7 @@
 #include <selvedge/Border_gaps.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
+#include <selvedge/prepare.h>
 #include <selvedge/verify.h>
 
 #include <cstddef>
@@ -141,10 +142,9 @@ struct Inspection
 /// edges). They have the names of the file, and texture coordinates are `texture`, as `drop_attributes` takes
 /// them; those of morph targets are followed by "of morph targets". What `drop_attributes` leaves out
 /// together counts as one: colours, each of them, and all texture coordinates with the tangents, as
-/// `texture`, or, where the first are alike, as `further_texture_coordinates`. `positions` numbers the
-/// positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).
-std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
-                                                       const std::vector<Index>& positions);
+/// `texture`, or, where the first are alike, as `further_texture_coordinates`. Of triangles with the same
+/// corners, the first one counts. **Complexity** O(n log n).
+std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prepared);
 
 /// Inspects a mesh as `prepare` and `simplify_soup` would treat it with default options, and with
 /// `Normals_choice::automatic`.

@@ -217,7 +217,7 @@ private:
       add(e);
     for (const auto h : m_working.constraints().spokes)
       add(m_working.mesh().edge(h));
-    seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);
+    seams.by_attributes = seams_of_attributes(m_prepared);
     seams.by_attributes.erase("texture"); // which `by_texture` counts
   }
 

@@ -66,12 +66,14 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
         names.insert(column.name + " of morph targets");
 }
 
-bool tells_regions_apart(const Attribute& attribute, const std::vector<Index_triple>& triangles)
+// `triangles` has the positions at the corners of the triangles with these numbers.
+bool tells_regions_apart(const Attribute& attribute, const std::vector<Index>& numbers,
+                         const std::vector<Index_triple>& triangles)
 {
   std::size_t edges = 0, differing = 0;
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     ++edges;
-    differing += differ(attribute, a.at_low / 3, b.at_low / 3);
+    differing += differ(attribute, numbers[a.at_low / 3], numbers[b.at_low / 3]);
   });
   return are_edges_around_regions(differing, edges);
 }
@@ -95,26 +97,33 @@ std::set<std::string> sole_causes(const std::set<std::string>& names)
 
 } // namespace
 
-std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
-                                                       const std::vector<Index>& positions)
+std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prepared)
 {
+  const Triangle_soup& soup = prepared.soup;
   if (!soup.scene && soup.vertex_attributes.empty() && soup.triangle_attributes.empty() && soup.uvs.empty())
     return {};
-  std::vector<Index_triple> triangles = soup.triangles; // of positions
-  for (Index_triple& triangle : triangles)
-    for (Index& v : triangle)
-      v = positions[v];
+  std::vector<Index> fronts;           // without their doubles, across which no edge is one of two triangles
+  std::vector<Index_triple> triangles; // these, of positions
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    if (!prepared.fronts.empty() && prepared.fronts[t] != t)
+      continue;
+    const auto& [a, b, c] = soup.triangles[t];
+    fronts.push_back(t);
+    triangles.push_back({prepared.positions[a], prepared.positions[b], prepared.positions[c]});
+  }
   std::vector<const Attribute*> of_regions;
   for (const Attribute& attribute : soup.triangle_attributes)
-    if (tells_regions_apart(attribute, triangles))
+    if (tells_regions_apart(attribute, fronts, triangles))
       of_regions.push_back(&attribute);
+  const auto corner = [&](Index c) { return 3 * fronts[c / 3] + c % 3; };
   std::map<std::string, std::size_t> result;
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     std::set<std::string> names;
     for (const Attribute* const attribute : of_regions)
-      if (differ(*attribute, a.at_low / 3, b.at_low / 3))
+      if (differ(*attribute, fronts[a.at_low / 3], fronts[b.at_low / 3]))
         names.insert(attribute->name);
-    for (const auto& [c, d] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)}) {
+    for (const auto& [c, d] :
+         {std::pair(corner(a.at_low), corner(b.at_low)), std::pair(corner(a.at_high), corner(b.at_high))}) {
       if (is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) || is_seam_of(soup.objects, c, d) ||
           is_seam_of(soup.materials, c, d))
         return;

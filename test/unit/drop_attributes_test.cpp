@@ -206,8 +206,20 @@ TEST(Attributes, SeamsOfTheTextureAreCounted)
   const Triangle_soup soup = shredded_sheet();
   const std::size_t inner = (3 * soup.triangles.size() - 4 * 12) / 2;
   const Reduction reduction = reduce(soup, to_ratio(1));
-  const auto seams = seams_of_attributes(reduction.prepared.soup, reduction.prepared.positions);
+  const auto seams = seams_of_attributes(reduction.prepared);
   EXPECT_EQ(seams.at("texture"), inner);
+}
+
+TEST(Attributes, SeamsOfTheTextureOfADoubleSidedSheetAreCountedOnce)
+{
+  Triangle_soup soup = shredded_sheet();
+  for (auto* const triples : {&soup.triangles, &soup.uvs.of_triangle}) {
+    const std::vector<Index_triple> fronts = *triples;
+    for (const auto& [a, b, c] : fronts)
+      triples->push_back({a, c, b});
+  }
+  const Reduction one = reduce(shredded_sheet(), to_ratio(1)), both = reduce(soup, to_ratio(1));
+  EXPECT_EQ(seams_of_attributes(both.prepared), seams_of_attributes(one.prepared));
 }
 
 TEST(Attributes, AreNamedWhereTheyAreTheOnlyCauseOfSeams)
@@ -215,7 +227,7 @@ TEST(Attributes, AreNamedWhereTheyAreTheOnlyCauseOfSeams)
   Triangle_soup soup = joined(sheet(1, 2), moved(sheet(1, 2), 1, 0, 0));
   const auto seams = [&] {
     const Reduction reduction = reduce(soup, to_ratio(1));
-    return seams_of_attributes(reduction.prepared.soup, reduction.prepared.positions);
+    return seams_of_attributes(reduction.prepared);
   };
   using Counts = std::map<std::string, std::size_t>;
   std::vector<unsigned char> values(soup.points.size(), 0);
@@ -361,12 +373,11 @@ protected:
     json["images"][1]["bufferView"] = json["bufferViews"].size();
     json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 96}, {"name", "weave"}});
     json["samplers"] = {{{"magFilter", 9728}}, {{"magFilter", 9729}}};
-    json["textures"] = {{{"source", 1}, {"sampler", 0}},
-                        {{"source", 2}, {"sampler", 1}},
-                        {{"source", 2}, {"sampler", 0}},
-                        {{"source", 3},
-                         {"sampler", 1},
-                         {"extensions", {{"KHR_texture_basisu", {{"source", 4}}}}}}};
+    json["textures"] = {
+        {{"source", 1}, {"sampler", 0}},
+        {{"source", 2}, {"sampler", 1}},
+        {{"source", 2}, {"sampler", 0}},
+        {{"source", 3}, {"sampler", 1}, {"extensions", {{"KHR_texture_basisu", {{"source", 4}}}}}}};
     json["extensionsUsed"] = {"KHR_materials_specular", "KHR_texture_basisu", "KHR_texture_transform"};
     json["materials"] = Json::parse(R"([{
       "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
