@@ -312,9 +312,9 @@ struct Verify_options
 ///    positions, are joined where positions coincide. Files that number vertices in another way (STL, texture
 ///    seams in glTF) are matched here. Each piece of the original must show: some triangle of the result has
 ///    corners of no other piece, or is one of its triangles and there as often as in the original; or what it
-///    is joined to would be of another kind without it, as a patch within a surface would leave a hole. So a
-///    notch in a border, filled by a piece without vertices of its own, may be called missing though it is
-///    there. Where `Verify_options::triangles_in_file` is given, these pieces show as well if the file has a
+///    is joined to would be of another kind without it, as a patch within a surface leaves a hole; positions
+///    that the weld distance joins are one for this. A notch in a border that such a piece fills may be called
+///    missing. Where `Verify_options::triangles_in_file` is given, these pieces show as well if the file has a
 ///    piece for each of them, of the same kind and names and with no position that is not theirs, which no
 ///    other piece of the original needs and without which the rest is of the same kinds as theirs is.
 /// 3. By distance, for results whose vertices are not the original's: two pieces of one kind, each of which

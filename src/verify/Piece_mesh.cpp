@@ -48,12 +48,15 @@ std::vector<Index> Piece_mesh::triangles_of(const std::vector<Index>& some_piece
   return result;
 }
 
-std::vector<Kind> Piece_mesh::kinds_by_position(const std::vector<Index>& some_triangles) const
+std::vector<Kind> Piece_mesh::kinds_by_position(const std::vector<Index>& some_triangles,
+                                                const Index* other_positions) const
 {
   std::vector<Index_triple> by_position;
   std::vector<Index> numbers;
-  for (const Index t : some_triangles)
-    by_position.push_back({position(t, 0), position(t, 1), position(t, 2)});
+  for (const Index t : some_triangles) {
+    const auto& [a, b, c] = soup.triangles[t];
+    by_position.push_back({other_positions[a], other_positions[b], other_positions[c]});
+  }
   for (const Index_triple& triple : by_position)
     numbers.insert(numbers.end(), triple.begin(), triple.end());
   std::sort(numbers.begin(), numbers.end());

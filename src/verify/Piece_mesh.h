@@ -49,7 +49,14 @@ struct Piece_mesh
 
   /// Returns the kinds of the pieces that some triangles form when positions connect them instead of vertex
   /// numbers, sorted.
-  std::vector<Kind> kinds_by_position(const std::vector<Index>& some_triangles) const;
+  std::vector<Kind> kinds_by_position(const std::vector<Index>& some_triangles) const
+  {
+    return kinds_by_position(some_triangles, positions);
+  }
+
+  /// Returns the same with other positions of the vertices.
+  std::vector<Kind> kinds_by_position(const std::vector<Index>& some_triangles,
+                                      const Index* other_positions) const;
 
   const Triangle_soup& soup;
   const Index* positions; ///< of each vertex, numbered in common with the other mesh

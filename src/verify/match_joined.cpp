@@ -20,39 +20,98 @@
 namespace selvedge::internal {
 namespace {
 
-/// The triangles of a mesh by their three positions, each with its piece.
-class Triangles_by_position
+/// The triangles of a mesh by the places of their corners, each with its piece.
+class Triangles_by_place
 {
 public:
-  using Entry = std::pair<Index_triple, Index>; ///< positions in ascending order, and the piece
+  using Entry = std::pair<Index_triple, Index>; ///< places in ascending order, and the piece
   using Range = CGAL::Iterator_range<std::vector<Entry>::const_iterator>;
 
-  explicit Triangles_by_position(const Piece_mesh& mesh)
+  Triangles_by_place(const Piece_mesh& mesh, const Index* places)
   {
     for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
       if (mesh.piece(t) != no_piece)
-        m_entries.emplace_back(corners(mesh, t), mesh.piece(t));
+        m_entries.emplace_back(corners(mesh, t, places), mesh.piece(t));
     Cancellation_scope::check();
     std::sort(m_entries.begin(), m_entries.end());
     Cancellation_scope::check();
   }
 
-  /// Returns all with the positions of this triangle of one of the two meshes.
-  Range with_corners_of(const Piece_mesh& mesh, Index triangle) const
+  /// Returns all with the places of this triangle of one of the two meshes.
+  Range with_corners_of(const Piece_mesh& mesh, Index triangle, const Index* places) const
   {
-    return Range(std::equal_range(m_entries.begin(), m_entries.end(), Entry(corners(mesh, triangle), 0),
+    return Range(std::equal_range(m_entries.begin(), m_entries.end(),
+                                  Entry(corners(mesh, triangle, places), 0),
                                   [](const Entry& a, const Entry& b) { return a.first < b.first; }));
   }
 
 private:
-  static Index_triple corners(const Piece_mesh& mesh, Index triangle)
+  static Index_triple corners(const Piece_mesh& mesh, Index triangle, const Index* places)
   {
-    Index_triple triple{mesh.position(triangle, 0), mesh.position(triangle, 1), mesh.position(triangle, 2)};
+    const auto& [a, b, c] = mesh.soup.triangles[triangle];
+    Index_triple triple{places[a], places[b], places[c]};
     std::sort(triple.begin(), triple.end());
     return triple;
   }
 
   std::vector<Entry> m_entries;
+};
+
+// The numbers of the places of all vertices of a mesh.
+std::vector<Index> places_of_vertices(const Piece_mesh& mesh, const std::vector<Index>& places_of_positions)
+{
+  std::vector<Index> places(mesh.soup.points.size());
+  for (Index v = 0; v < places.size(); ++v)
+    places[v] = places_of_positions[mesh.positions[v]];
+  return places;
+}
+
+/// Both meshes with their borders joined within the weld distance.
+class Joined_borders
+{
+public:
+  explicit Joined_borders(const Matching& matching) : Joined_borders(matching, joined_positions(matching)) {}
+
+  /// Returns whether pieces of the original show that no triangle of the result has corners of alone: each
+  /// has a triangle that the result has, too, as often as the original; or what it is joined to would be of
+  /// another kind without it.
+  bool show(const std::vector<Index>& unseen, const std::vector<Index>& of_original,
+            const std::vector<Index>& triangles_now) const
+  {
+    std::vector<Index> shown, left;
+    for (const Index t : triangles_now) {
+      const auto same = m_before.with_corners_of(m_matching.result, t, m_now_at.data());
+      const auto& [a, b, c] = m_matching.result.soup.triangles[t];
+      const bool is_face =
+          m_now_at[a] != m_now_at[b] && m_now_at[b] != m_now_at[c] && m_now_at[c] != m_now_at[a];
+      if (is_face && same.size() > 0 &&
+          m_now.with_corners_of(m_matching.result, t, m_now_at.data()).size() >= same.size())
+        for (const auto& [corners, o] : same)
+          shown.push_back(o);
+    }
+    std::sort(shown.begin(), shown.end());
+    std::set_difference(unseen.begin(), unseen.end(), shown.begin(), shown.end(), std::back_inserter(left));
+    return left.empty() ||
+           (left.size() < of_original.size() &&
+            m_matching.original.kinds_by_position(m_matching.original.triangles_of(of_original),
+                                                  m_before_at.data()) ==
+                m_matching.result.kinds_by_position(triangles_now, m_now_at.data()) &&
+            perhaps_missing(m_matching, left, of_original, {m_before_at.data(), m_pieces_at}).empty());
+  }
+
+private:
+  Joined_borders(const Matching& matching, const std::vector<Index>& places)
+      : m_matching(matching), m_now_at(places_of_vertices(matching.result, places)),
+        m_before_at(places_of_vertices(matching.original, places)),
+        m_pieces_at(matching.original.pieces_at(matching.position_count, m_before_at.data())),
+        m_before(matching.original, m_before_at.data()), m_now(matching.result, m_now_at.data())
+  {
+  }
+
+  const Matching& m_matching;
+  std::vector<Index> m_now_at, m_before_at; // the places of all vertices
+  Lists m_pieces_at;                        // of the original, by place
+  Triangles_by_place m_before, m_now;
 };
 
 // The pieces of the original that a triangle of the result may come from: those within reach of all
@@ -126,7 +185,9 @@ void match_joined(Matching& matching, bool is_by_distance)
     return is_by_distance ? matching.positions_nearby()[matching.result.soup.triangles[t][place]]
                           : matching.result.position(t, place);
   };
-  const Triangles_by_position before(matching.original), now(matching.result);
+  const Index *const before_at = matching.original.positions, *const now_at = matching.result.positions;
+  const Triangles_by_place before(matching.original, before_at), now(matching.result, now_at);
+  std::optional<Joined_borders> joined_borders;
   Cancellation_poll poll;
   for (Index t = 0; t < matching.result.soup.triangles.size(); ++t) {
     poll();
@@ -158,8 +219,9 @@ void match_joined(Matching& matching, bool is_by_distance)
     }
     // All of its corners are corners of several pieces. When the result has this very triangle as often as
     // the original, those that have it there have it here.
-    const Triangles_by_position::Range same = before.with_corners_of(matching.result, t);
-    const bool is_kept = same.size() > 0 && now.with_corners_of(matching.result, t).size() >= same.size();
+    const Triangles_by_place::Range same = before.with_corners_of(matching.result, t, now_at);
+    const bool is_kept =
+        same.size() > 0 && now.with_corners_of(matching.result, t, now_at).size() >= same.size();
     for (const auto& [corners, o] : same)
       if (is_kept && matching.is_left_of_original(o))
         own(o);
@@ -210,13 +272,23 @@ void match_joined(Matching& matching, bool is_by_distance)
         (std::any_of(of_original.begin(), of_original.end(),
                      [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
          std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
+    const auto show_where_borders_are_joined = [&](const std::vector<Index>& some) {
+      if (has_broken || is_by_distance || matching.options.weld_distance <= 0)
+        return false;
+      if (!some.empty() && !joined_borders)
+        joined_borders.emplace(matching);
+      return some.empty() || joined_borders->show(some, of_original, triangles_now);
+    };
     if (matching.original.kinds_by_position(triangles_before) ==
             matching.result.kinds_by_position(triangles_now) &&
         (!is_by_distance || are_near(matching, of_original, triangles_now)) &&
         unseen.size() < of_original.size()) {
-      std::vector<Index> hidden = perhaps_missing(matching, unseen, of_original);
+      std::vector<Index> hidden =
+          perhaps_missing(matching, unseen, of_original, {before_at, matching.original_at});
       if (const Pieces_in_file* in_file = hidden.empty() ? nullptr : matching.pieces_in_file();
           in_file && in_file->have(hidden, of_original, of_result, matching.original_at))
+        hidden.clear();
+      if (!hidden.empty() && show_where_borders_are_joined(hidden))
         hidden.clear();
       std::vector<Index> seen;
       std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
@@ -224,7 +296,7 @@ void match_joined(Matching& matching, bool is_by_distance)
       for (const Index o : hidden)
         matching.is_hidden[o] = true;
       matching.match(std::move(seen), std::move(of_result), Matched_by::positions);
-    } else if (unseen.empty() && !has_broken && matching.options.weld_distance > 0 && !is_by_distance)
+    } else if (show_where_borders_are_joined(unseen))
       matching.match(std::move(of_original), std::move(of_result), Matched_by::borders);
     else if (is_told)
       matching.groups.push_back({std::move(of_original), std::move(of_result), has_broken});

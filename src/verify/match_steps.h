@@ -32,16 +32,27 @@ void judge_shapes(Matching& matching);
 /// reached so.
 Lists within_reach(const Matching& matching);
 
+/// Returns a number for each position, the same for those of border vertices of the original that the weld
+/// distance joins, one after another.
+std::vector<Index> joined_positions(const Matching& matching);
+
 /// Returns the number of the position of each vertex of the result. A vertex whose position the original does
 /// not have gets the position of the original that it is clearly next to, if there is one: it is no farther
 /// than 3e-6 of the diagonal of the original, and any other position is at least ten times as far.
 std::vector<Index> near_positions(const Matching& matching);
 
+/// The numbers of the places of all vertices of the original, and its pieces at each place.
+struct Places
+{
+  const Index* of_vertices;
+  const Lists& pieces_at;
+};
+
 /// Of pieces that have no triangle of the result for themselves, returns those that may be missing: without
 /// them, what they are joined to would be of the same kind. A patch that others surround would leave a hole;
-/// a notch that it fills could stay open unnoticed.
+/// a notch that it fills could stay open unnoticed. Places are positions, or what joins several of them.
 std::vector<Index> perhaps_missing(const Matching& matching, const std::vector<Index>& unseen,
-                                   const std::vector<Index>& of_original);
+                                   const std::vector<Index>& of_original, const Places& places);
 
 } // namespace selvedge::internal
 

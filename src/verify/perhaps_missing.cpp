@@ -21,13 +21,14 @@ long characteristic(const std::vector<Kind>& kinds)
                          [](long sum, const Kind& kind) { return sum + std::get<long>(kind); });
 }
 
-// A piece of the original, and those of some others that have a position in common with it.
-std::vector<Index> pieces_around(const Matching& matching, Index piece, const std::vector<Index>& others)
+// A piece of the original, and those of some others that have a place in common with it.
+std::vector<Index> pieces_around(const Piece_mesh& original, Index piece, const std::vector<Index>& others,
+                                 const Places& places)
 {
   std::vector<Index> around{piece}, result;
-  for (const Index t : matching.original.triangles[piece])
-    for (int place = 0; place < 3; ++place) {
-      const Lists::Range here = matching.original_at[matching.original.position(t, place)];
+  for (const Index t : original.triangles[piece])
+    for (const Index vertex : original.soup.triangles[t]) {
+      const Lists::Range here = places.pieces_at[places.of_vertices[vertex]];
       around.insert(around.end(), here.begin(), here.end());
     }
   std::sort(around.begin(), around.end());
@@ -40,14 +41,14 @@ std::vector<Index> pieces_around(const Matching& matching, Index piece, const st
 } // namespace
 
 std::vector<Index> perhaps_missing(const Matching& matching, const std::vector<Index>& unseen,
-                                   const std::vector<Index>& of_original)
+                                   const std::vector<Index>& of_original, const Places& places)
 {
   if (unseen.empty())
     return {};
   const auto kinds_without = [&](const std::vector<Index>& left_out, const std::vector<Index>& all) {
     std::vector<Index> others;
     std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(), std::back_inserter(others));
-    return matching.original.kinds_by_position(matching.original.triangles_of(others));
+    return matching.original.kinds_by_position(matching.original.triangles_of(others), places.of_vertices);
   };
   const std::vector<Kind> whole = kinds_without({}, of_original);
   if (kinds_without(unseen, of_original) == whole)
@@ -57,7 +58,7 @@ std::vector<Index> perhaps_missing(const Matching& matching, const std::vector<I
   const auto would_be_missed = [&](Index o) {
     Cancellation_scope::check();
     // What the Euler characteristic of the whole loses is what that of the pieces around this one loses.
-    const std::vector<Index> around = pieces_around(matching, o, of_original);
+    const std::vector<Index> around = pieces_around(matching.original, o, of_original, places);
     return characteristic(kinds_without({o}, around)) != characteristic(kinds_without({}, around)) ||
            (looks++ < most && kinds_without({o}, of_original) != whole);
   };

@@ -20,43 +20,77 @@
 namespace selvedge::internal {
 namespace {
 
-void add_near_borders(const Matching& matching, std::vector<Pair>& pairs)
+struct Border_vertices
 {
-  const Triangle_soup& original = matching.original.soup;
-  std::vector<Index_triple> borders; // border vertices, each as a triangle (v, v, v)
+  std::vector<Index_triple> vertices; // each as a triangle (v, v, v)
   std::vector<Index> pieces;
-  {
-    std::map<Pair, std::pair<int, Index>> sides;
-    for (Index t = 0; t < original.triangles.size(); ++t)
-      for (int place = 0; matching.original.piece(t) != no_piece && place < 3; ++place) {
-        auto side = std::minmax(original.triangles[t][place], original.triangles[t][(place + 1) % 3]);
-        auto& [count, triangle] = sides[side];
-        ++count;
-        triangle = t;
+};
+
+Border_vertices border_vertices(const Piece_mesh& mesh)
+{
+  std::map<Pair, std::pair<int, Index>> sides;
+  for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
+    for (int place = 0; mesh.piece(t) != no_piece && place < 3; ++place) {
+      auto side = std::minmax(mesh.soup.triangles[t][place], mesh.soup.triangles[t][(place + 1) % 3]);
+      auto& [count, triangle] = sides[side];
+      ++count;
+      triangle = t;
+    }
+  Border_vertices borders;
+  for (const auto& [side, faces] : sides)
+    for (const Index vertex : {side.first, side.second})
+      if (faces.first == 1) {
+        borders.vertices.push_back({vertex, vertex, vertex});
+        borders.pieces.push_back(mesh.piece(faces.second));
       }
-    for (const auto& [side, faces] : sides)
-      for (const Index vertex : {side.first, side.second})
-        if (faces.first == 1) {
-          borders.push_back({vertex, vertex, vertex});
-          pieces.push_back(matching.original.piece(faces.second));
-        }
+  return borders;
+}
+
+/// The border vertices of the original, by where they are.
+class Borders
+{
+public:
+  explicit Borders(const Matching& matching)
+      : m_original(matching.original.soup), m_weld_distance(matching.options.weld_distance),
+        m_is_rounded(has_float32_alone(matching.result.soup)), m_borders(border_vertices(matching.original)),
+        m_tree(m_original.points, m_borders.vertices)
+  {
   }
-  const Triangle_tree tree(original.points, borders);
-  const bool is_rounded = has_float32_alone(matching.result.soup);
-  Cancellation_poll poll;
-  const auto visit_near = [&](const Point_3& p, const auto& visit) {
+
+  /// Calls a function with each border vertex within the weld distance of a point, and with its piece; more
+  /// than once, perhaps.
+  template <class Visit>
+  void visit_near(const Point_3& p, const Visit& visit) const
+  {
     const double largest = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-    const double reach = matching.options.weld_distance * (1 + 1e-9) + (is_rounded ? largest * 0x1p-22 : 0);
+    const double reach = m_weld_distance * (1 + 1e-9) + (m_is_rounded ? largest * 0x1p-22 : 0);
     const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
                            p.z() + reach);
-    tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); },
-               [&](Index border) {
-                 poll();
-                 const Point_3& q = original.points[borders[border][0]];
-                 if (std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= reach)
-                   visit(q, pieces[border]);
-               });
-  };
+    m_tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); },
+                 [&](Index border) {
+                   m_poll();
+                   const Index vertex = m_borders.vertices[border][0];
+                   const Point_3& q = m_original.points[vertex];
+                   if (std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= reach)
+                     visit(vertex, m_borders.pieces[border]);
+                 });
+  }
+
+  const std::vector<Index_triple>& vertices() const { return m_borders.vertices; }
+
+private:
+  const Triangle_soup& m_original;
+  double m_weld_distance;
+  bool m_is_rounded;
+  Border_vertices m_borders;
+  Triangle_tree m_tree;
+  mutable Cancellation_poll m_poll;
+};
+
+void add_near_borders(const Matching& matching, std::vector<Pair>& pairs)
+{
+  const Borders borders(matching);
+  Cancellation_poll poll;
   std::vector<bool> is_done(matching.position_count);
   for (const Index vertex : used_vertices(matching.result.soup)) {
     const Index position = matching.result.positions[vertex];
@@ -74,11 +108,11 @@ void add_near_borders(const Matching& matching, std::vector<Pair>& pairs)
       const std::set<Index> before = reached;
       next.clear();
       for (const Point_3& p : at)
-        visit_near(p, [&](const Point_3& q, Index piece) {
+        borders.visit_near(p, [&](Index border, Index piece) {
           if (before.count(piece) > 0)
             return;
           reached.insert(piece);
-          next.insert(q);
+          next.insert(matching.original.soup.points[border]);
         });
     }
     for (const Index piece : reached)
@@ -98,6 +132,20 @@ Lists within_reach(const Matching& matching)
   if (matching.options.weld_distance > 0)
     add_near_borders(matching, pairs);
   return Lists(matching.position_count, pairs);
+}
+
+std::vector<Index> joined_positions(const Matching& matching)
+{
+  Disjoint_sets sets(matching.position_count);
+  const Borders borders(matching);
+  const auto position = [&](Index vertex) { return matching.original.positions[vertex]; };
+  for (const Index_triple& border : borders.vertices())
+    borders.visit_near(matching.original.soup.points[border[0]],
+                       [&](Index other, Index) { sets.unite(position(border[0]), position(other)); });
+  std::vector<Index> joined(matching.position_count);
+  for (Index i = 0; i < joined.size(); ++i)
+    joined[i] = Index(sets.find(i));
+  return joined;
 }
 
 // A piece whose vertices were all snapped onto those of a piece that lies on it, or beside it, has none of

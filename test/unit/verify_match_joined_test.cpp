@@ -272,6 +272,33 @@ TEST(MatchPieces, OfReducedPatchesWithoutVerticesOfTheirOwn)
   }
 }
 
+// Gaps part the patches, and snapping has closed them before the vertices were numbered by position.
+TEST(MatchPieces, OfPatchesWhoseGapsWereClosed)
+{
+  const double gap = 1e-3;
+  Verify_options options;
+  options.weld_distance = 2 * gap;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> offset(-gap / 2, gap / 2);
+    const Triangle_soup original =
+        mapped(in_patches(torus(), 10 + random() % 40, random), [&](const Point_3& p) {
+          return Point_3(p.x() + offset(random), p.y() + offset(random), p.z() + offset(random));
+        });
+    Prepare_options closing;
+    closing.weld_distance = options.weld_distance;
+    const Triangle_soup result =
+        simplify_soup(prepare(original, closing), to_ratio(seed % 2 == 0 ? 1 : 0.4)).soup;
+    const auto mismatches_of = [&](const Triangle_soup& soup) {
+      return mismatches(match_pieces(by_position(soup), original, options));
+    };
+    EXPECT_EQ(mismatches_of(result), Mismatches{});
+    for (Index i = 0; i < pieces(result).size(); ++i)
+      EXPECT_NE(mismatches_of(without_piece(result, i)), Mismatches{}) << "piece " << i;
+  }
+}
+
 /// Gives corners at one position the first vertex there.
 Triangle_soup with_first_vertices(Triangle_soup soup)
 {
