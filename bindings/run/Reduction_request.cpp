@@ -341,6 +341,10 @@ void Reduction_request::check() const
     throw Argument_error(
         "weld: CGAL's loop collapses no two edges right after each other, as the two sides of a gap need it "
         "to be held; leave out loop, or give another weld");
+  if (options.index == Face_index::packed &&
+      options.faces_per_cluster != Simplify_options().faces_per_cluster)
+    throw Argument_error(
+        "cluster_size: the packed index has no clusters; leave it out, or give clusters as index");
   for (const Simplify_intent::Part_ratio& part : intent.ratios)
     if (std::find(intent.kept.begin(), intent.kept.end(), part.name) != intent.kept.end())
       throw Argument_error("keep: no face of '" + part.name +

@@ -6,6 +6,7 @@ import copy
 import inspect
 import json
 import os
+import pathlib
 import pickle
 import re
 import signal
@@ -151,6 +152,40 @@ class Simplify(unittest.TestCase):
             selvedge.simplify(points, triangles, uvs=uvs, sewn=True, ratio=0.5)
         sewn = selvedge.simplify(points, triangles, uvs=uvs[triangles], sewn=True, ratio=0.5)
         self.assertEqual(sewn.uvs.shape, (len(sewn.triangles), 3, 2))
+
+    def test_what_numpy_takes_for_numbers_is_refused(self):
+        mesh = layers(200)
+        points, triangles = mesh
+        masked = np.ma.masked_greater(points, 0.4)
+        for arguments, options, why in (
+                ((points + 0j, triangles), {}, "^points: the numbers are complex"),
+                ((masked, triangles), {}, "^points: the array has a mask"), ((points, np.ma.masked_equal(triangles, 0)), {}, "^triangles: .* mask"),
+                (("mesh.obj", triangles), {}, "^points: 'mesh.obj' is no array; read the file first"),
+                ((pathlib.Path("mesh.obj"), triangles), {}, "^points: .*read the file first"),
+                ((points, "mesh.obj"), {}, "^triangles: 'mesh.obj' is no array"), ((3, triangles), {}, "^points: 3 is no array"),
+                (([[1, 2, 3], [1, 2]], triangles), {}, "^points: this is no array of numbers"),
+                (([["a", "b", "c"]], triangles), {}, "^points: this is no array of numbers"),
+                ((points, triangles), {"poses": "poses.npy"}, "^poses: 'poses.npy' is no array"),
+                ((points, triangles), {"poses": [masked]}, "^poses: the array has a mask"),
+                ((points, triangles), {"obstacle": (points * 1j, triangles)}, "^points of the obstacle: .*complex"),
+                ((points, triangles), {"normal_vectors": masked}, "^normal_vectors: .*mask"),
+                ((points, triangles), {"attributes": {"heat": masked[:, 0]}}, "^the attribute 'heat': .*mask"),
+                ((points, triangles), {"weights": masked[:, 0]}, "^weights: .*mask"),
+                ((points, triangles), {"lock_vertices": np.ma.masked_equal([0, 1], 1)}, "^lock_vertices: .*mask")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, why):
+                selvedge.simplify(*arguments, ratio=0.5, **options)
+        for judged in (("mesh.obj", triangles), (masked, triangles)):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "^points: "):
+                selvedge.verify(*judged)
+            with self.assertRaisesRegex(selvedge.ArgumentError, "^points: "):
+                selvedge.replay(*judged, "")
+            with self.assertRaisesRegex(selvedge.ArgumentError, "^points of the original: "):
+                selvedge.verify(*mesh, original=judged)
+
+    def test_options_that_would_do_nothing_are_refused(self):
+        with self.assertRaisesRegex(selvedge.ArgumentError, "^cluster_size: the packed index"):
+            selvedge.simplify(*layers(200), ratio=0.5, cluster_size=20)
+        self.assertTrue(selvedge.simplify(*layers(200), ratio=0.5, cluster_size=20, index="clusters").accepted)
 
     def test_results_print_what_they_are(self):
         mesh = layers()

@@ -9,6 +9,7 @@ are read in place; others are converted. docs/python.md has examples.
 
 import json as _json
 import math as _math
+import os as _os
 from operator import index as _index
 
 import numpy as _np
@@ -136,14 +137,14 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
     for name in options:
         if name not in names:
             raise TypeError(f"simplify() has no option '{name}'; the nearest is '{_selvedge.nearest(name, names)}'")
-    triangle_array = _np.asarray(triangles)
+    points, triangle_array = _points(points), _array("triangles", triangles)
     labels, form_of_uvs, form_of_normals = _labels(len(points), triangle_array, uvs, normal_vectors, groups)
     if form_of_uvs == "vertex" and options.get("sewn"):
         raise ArgumentError("uvs: sewn makes one vertex of several, which differ in their texture coordinates along seams; give "
                             "those of corners: uvs[triangles]")
     given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
-    runs = _selvedge.reduce(_points(points), _triangles(triangle_array), given, labels, form_of_normals == "vertex",
-                            [(str(name), _np.asarray(values)) for name, values in (attributes or {}).items()],
+    runs = _selvedge.reduce(points, _triangles(triangle_array), given, labels, form_of_normals == "vertex",
+                            [(str(name), _array(f"the attribute '{name}'", values)) for name, values in (attributes or {}).items()],
                             [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                             None if weights is None else _weights(weights, len(points)),
                             None if obstacle is None else _mesh(obstacle, "obstacle"),
@@ -208,8 +209,9 @@ def replay(points, triangles, log, *, uvs=None, normal_vectors=None, groups=None
     those that the log declares; there are none of the judge, and further poses of the log are not judged.
     """
     beside = None if obstacle is None else _mesh(obstacle, "obstacle")
-    labels, *_ = _labels(len(points), _np.asarray(triangles), uvs, normal_vectors, groups)
-    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, labels, beside, all)
+    points, triangles = _points(points), _triangles(triangles)
+    labels, *_ = _labels(len(points), triangles, uvs, normal_vectors, groups)
+    accepted, mesh, report = _selvedge.replay(points, triangles, log, labels, beside, all)
     return Verdict(accepted, report, mesh=Mesh(*mesh))
 
 
@@ -248,7 +250,7 @@ def _mesh(mesh, name):
         points, triangles = mesh
     except (TypeError, ValueError):
         raise ArgumentError(f"{name} is neither a Mesh nor a pair (points, triangles)") from None
-    return _points(points), _triangles(triangles)
+    return _points(points, "points" if name == "mesh" else f"points of the {name}"), _triangles(triangles)
 
 
 def _judged(name, mesh, poses, groups, uvs, normal_vectors):
@@ -257,19 +259,42 @@ def _judged(name, mesh, poses, groups, uvs, normal_vectors):
     return points, triangles, [] if poses is None else _poses(poses), labels
 
 
-def _points(points):
-    return _np.ascontiguousarray(points, dtype=_np.float64)
+def _array(name, values):
+    """Returns values as an array, and refuses what NumPy takes for one, or takes without a word of what is lost."""
+    if isinstance(values, (str, bytes, _os.PathLike)):
+        raise ArgumentError(f"{name}: {values!r} is no array; read the file first, by a package such as meshio or trimesh")
+    if isinstance(values, _np.ma.MaskedArray):
+        raise ArgumentError(f"{name}: the array has a mask, and what it masks would be taken as well; give an array without one")
+    try:
+        array = _np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise ArgumentError(f"{name}: this is no array of numbers: {error}") from None
+    if array.dtype.kind == "c":
+        raise ArgumentError(f"{name}: the numbers are complex; give their real parts alone, if these are meant")
+    if array.ndim == 0:
+        raise ArgumentError(f"{name}: {values!r} is no array")
+    return array
+
+
+def _points(points, name="points"):
+    array = _array(name, points)
+    try:
+        return _np.ascontiguousarray(array, dtype=_np.float64)
+    except (TypeError, ValueError) as error:
+        raise ArgumentError(f"{name}: this is no array of numbers: {error}") from None
 
 
 def _poses(poses):
-    poses = [_points(pose) for pose in poses]
+    if isinstance(poses, (str, _os.PathLike, _np.ma.MaskedArray)):
+        _array("poses", poses)
+    poses = [_points(pose, "poses") for pose in poses]
     if any(pose.ndim != 2 for pose in poses):
         raise ArgumentError("poses is not an array of shape (poses, n, 3); for one pose, give [pose]")
     return poses
 
 
 def _triangles(triangles):
-    triangles = _np.asarray(triangles)
+    triangles = _array("triangles", triangles)
     if triangles.size and triangles.dtype.kind not in "iu":
         raise ArgumentError("triangles are not whole numbers")
     if triangles.size and (triangles.min() < 0 or triangles.max() >= 2**32):
@@ -284,6 +309,8 @@ def _as(triangles, index_type):
 
 
 def _vertex_numbers(vertices, count):
+    if isinstance(vertices, _np.ma.MaskedArray):
+        _array("lock_vertices", vertices)
     try:
         listed = [] if isinstance(vertices, _np.ndarray) else list(vertices)
         array = vertices if isinstance(vertices, _np.ndarray) else _np.array(listed)
@@ -306,6 +333,8 @@ def _vertex_numbers(vertices, count):
 
 
 def _weights(weights, count):
+    if isinstance(weights, _np.ma.MaskedArray):
+        _array("weights", weights)
     weights = [float(weight) for weight in weights]
     if len(weights) != count:
         raise ArgumentError(f"there are {count} points, but {len(weights)} weights")
@@ -327,8 +356,8 @@ def _corner_values(name, given, columns, vertices, triangles):
     if given is None:
         return None, "corner"
     if isinstance(given, tuple) and len(given) == 2:
-        return (_points(given[0]), _triangles(given[1])), "pair"
-    array = _points(given)
+        return (_points(given[0], name), _triangles(given[1])), "pair"
+    array = _points(given, name)
     if array.shape == (vertices, columns):
         return (array, _triangles(triangles)), "vertex"
     if array.shape == (len(triangles), 3, columns):
