@@ -169,6 +169,24 @@ void check_progressive(const Simplify_request& request)
         "one; leave out --lods");
 }
 
+/// Refuses options that would do nothing beside the others.
+void check_use(const Simplify_request& request)
+{
+  const std::vector<std::string> meshes{request.output, request.poses_output};
+  require_use_of_ascii(request.is_ascii, meshes, request.format);
+  require_use_of_polygons(request.are_polygons_split, meshes, request.format);
+  if (request.faces_per_cluster && request.options.index != Face_index::clusters)
+    throw Argument_error(
+        "--cluster-size: the packed index has no clusters; leave it out, or give --index clusters");
+  if (!request.instances)
+    return;
+  const bool is_from_gltf = is_gltf(format_of(request.input, request.format));
+  if (!is_from_gltf || !is_gltf(format_of(request.output, request.format)))
+    throw Argument_error("--instances: only glTF has meshes in several places, and " +
+                         (is_from_gltf ? "the output" : input_name(request.input)) +
+                         " is of another format; leave it out");
+}
+
 void check_kept_parts(const Simplify_request& request)
 {
   for (const Simplify_intent::Part_ratio& part : request.intent.ratios)
@@ -232,6 +250,7 @@ void check(const Simplify_request& request)
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   check_poses(request);
+  check_use(request);
   check_kept_parts(request);
   check_progressive(request);
   check_clearance(request);
@@ -368,7 +387,7 @@ Json options_json(const Simplify_request& request)
           {"drop_smaller", request.dropped_parts.smaller_than},
           {"drop_attribute", request.dropped_attributes},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
-          {"polygons", request.are_polygons_split ? "split" : "keep"},
+          {"polygons", request.are_polygons_split.value_or(false) ? "split" : "keep"},
           {"threads", optional(request.threads)},
           {"cells", request.is_in_cells},
           {"defects", name_of(defects_of(request))},
@@ -417,6 +436,8 @@ void complete(Simplify_request& request)
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
   request.options.faces_per_cell = request.is_in_cells ? Simplify_options::default_faces_per_cell : 0;
+  request.options.faces_per_cluster = request.faces_per_cluster.value_or(request.options.faces_per_cluster);
+  request.options.instances = request.instances.value_or(request.options.instances);
   read_ratios(request);
   read_error(request);
   read_weld(request);

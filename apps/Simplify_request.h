@@ -42,7 +42,9 @@ struct Simplify_request
   std::string poses_output;               // with {pose}
   std::vector<std::string> may_intersect; // "PART:PART"
   Placement_choice placement = Placement_choice::automatic;
-  Simplify_options options; // but for the placement
+  Simplify_options options; // but for the placement; `complete` puts the next two in
+  std::optional<Instances> instances;
+  std::optional<std::size_t> faces_per_cluster;
   Simplify_intent intent;
   bool is_unguarded = false;
   bool is_in_cells = false;
@@ -59,7 +61,7 @@ struct Simplify_request
   bool is_target_required = false;
   bool is_quiet = false;
   bool is_ascii = false;
-  bool are_polygons_split = false;
+  std::optional<bool> are_polygons_split;
   std::optional<std::size_t> threads;
 };
 

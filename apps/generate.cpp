@@ -14,6 +14,7 @@
 #include <selvedge/verify.h>
 
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,32 @@ std::string named_pose(const Generate_request& request, const std::string& pose)
   return name.replace(place, mark.size(), pose);
 }
 
+// The options that change nothing in a scene; garments use all.
+const std::map<std::string_view, std::vector<std::string>> unused_options{
+    {"sheets", {"--thickness"}},
+    {"folded", {"--thickness"}},
+    {"nested", {"--thickness", "--fold-depth", "--folds"}},
+    {"seams", {"--layers", "--thickness", "--gap", "--fold-depth", "--folds"}},
+    {"tunnel", {"--layers", "--thickness", "--gap", "--fold-depth", "--folds", "--seed"}},
+    {"grid", {"--layers", "--thickness", "--gap", "--fold-depth", "--folds", "--seed"}},
+    {"needles", {"--thickness"}}};
+
+/// Refuses an option that changes nothing in a scene, or in the list of all.
+void require_use(const Generate_request& request, const CLI::App& command)
+{
+  if (request.is_list) {
+    for (const CLI::Option* option : command.get_options())
+      if (option->count() > 0 && option->get_name() != "--list")
+        throw Argument_error("--list names all scenes and makes none; leave it out, or " +
+                             option->get_name());
+    return;
+  }
+  if (const auto unused = unused_options.find(request.name); unused != unused_options.end())
+    for (const std::string& option : unused->second)
+      if (command.count(option) > 0)
+        throw Argument_error(option + ": changes nothing in the scene '" + request.name + "'; leave it out");
+}
+
 Exit_code run(const Generate_request& request)
 {
   if (request.is_list) {
@@ -62,6 +89,7 @@ Exit_code run(const Generate_request& request)
   check_streams({}, {{"--output", request.output}}, request.mesh_format);
   const Mesh_format format = format_of(request.output, request.mesh_format);
   require_writable(request.output);
+  require_use_of_ascii(request.is_ascii, {request.output, request.poses_output}, request.mesh_format);
   for (const std::string& name : {request.output, request.poses_output})
     require_avatar(name, {});
   if ((request.poses > 0) != !request.poses_output.empty())
@@ -155,14 +183,17 @@ Action add_generate(CLI::App& command)
                   "Files for the poses, of which {pose} is the number, or one point cache (.mdd, .pc2).")
       ->type_name("PATTERN");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
+  add_ascii_option(command, request->is_ascii);
   command.footer("Examples:\n"
                  "  selvedge generate --list\n"
                  "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
                  "  selvedge generate skirt -o skirt.obj --poses 8 --poses-out 'skirt_{pose}.obj'\n"
                  "  selvedge generate sheets -o sheets.ply --faces 1000000 --layers 5 --gap 1e-9\n\n"
                  "The same name and options give the same bytes on every machine.");
-  return [request] { return run(*request); };
+  return [request, &command] {
+    require_use(*request, command);
+    return run(*request);
+  };
 }
 
 } // namespace selvedge::app

@@ -455,7 +455,7 @@ Action add_info(CLI::App& command)
       "surfaces are\n"
       "counted from 1, in the order of their first faces. The exit code is 0, however bad the mesh is, and 3 "
       "when it\n"
-      "cannot be read.");
+      "cannot be read or every face has two corners at one position.");
   return [request] {
     const Thread_limit limit(request->threads);
     return run(*request);

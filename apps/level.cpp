@@ -78,6 +78,7 @@ Exit_code run(const Level_request& request)
     throw Argument_error("say which level: give --faces or --ratio");
   check_streams({}, {{"--output", request.output}}, request.format);
   const Mesh_format format = format_of(request.output, request.format);
+  require_use_of_ascii(request.is_ascii, {request.output, request.poses_output}, request.format);
   require_distinct({{"--output", request.output}}, {{"FILE", request.input}});
   require_writable(request.output);
   if (!request.poses_output.empty() && !is_point_cache(request.poses_output) &&
@@ -137,7 +138,7 @@ Action add_level(CLI::App& command)
                   "Files for the poses that FILE holds, of which {pose} is the name. Or one point cache.")
       ->type_name("PATTERN");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
+  add_ascii_option(command, request->is_ascii);
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o least.glb --ratio 0.02 --progressive jacket.glb\n"

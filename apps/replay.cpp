@@ -50,7 +50,7 @@ struct Replay_request
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
   bool is_ascii = false;
-  bool are_polygons_split = false;
+  std::optional<bool> are_polygons_split;
   bool is_json = false;
 };
 
@@ -296,6 +296,8 @@ Exit_code run(const Replay_request& request)
     put_out.push_back({"--json", "-"});
   check_streams({{"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}},
                 put_out, request.format);
+  require_use_of_ascii(request.is_ascii, {request.output}, request.format);
+  require_use_of_polygons(request.are_polygons_split, {request.output}, request.format);
   std::optional<Mesh_format> format;
   if (!request.output.empty())
     format = format_of(request.output, request.format);
@@ -315,7 +317,7 @@ Exit_code run(const Replay_request& request)
     stream = in_memory(*stream);
   Mesh_input input(request.original, request.format);
   Mesh_file original = input.read();
-  if (request.are_polygons_split)
+  if (request.are_polygons_split.value_or(false))
     original.soup.polygons.clear();
   read_poses(request.poses, request.original, original.soup);
   if (!request.obstacle.empty()) {
@@ -461,7 +463,7 @@ Action add_replay(CLI::App& command)
   add_report_options(command, *request);
   add_html_option(command, request->html);
   add_polygons_option(command, request->are_polygons_split);
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
+  add_ascii_option(command, request->is_ascii);
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log --placement vertices\n"

@@ -135,7 +135,7 @@ void add_options(CLI::App& command, Simplify_request& request)
 
   command
       .add_option(
-          "--instances", options.instances,
+          "--instances", request.instances,
           "Meshes that stand in several places of a glTF scene: reduce each once, with collapses that "
           "all places allow, so that the output shares them as the input does; or in each place by "
           "itself. Outputs of other formats have no places: then it is apart.")
@@ -307,10 +307,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("packed|clusters")
       ->default_str("packed")
       ->group(tuning);
-  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster, for --index clusters.")
+  command
+      .add_option("--cluster-size", request.faces_per_cluster, "Faces per cluster, for --index clusters.")
       ->check(in_range(1))
       ->type_name("N")
-      ->capture_default_str()
+      ->default_str(std::to_string(options.faces_per_cluster))
       ->group(tuning);
   command
       .add_option("--loop", options.loop,
@@ -381,7 +382,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(conduct);
   add_html_option(command, request.html)->group(conduct);
   command.add_flag("--quiet", request.is_quiet, "Print no summary and no progress bar.")->group(conduct);
-  command.add_flag("--ascii", request.is_ascii, "Write PLY and STL as text.")->group(conduct);
+  add_ascii_option(command, request.is_ascii)->group(conduct);
   add_polygons_option(command, request.are_polygons_split)->group(conduct);
 
   command.footer(

@@ -46,6 +46,39 @@ TEST(App_generate, OptionsArrive)
     EXPECT_NE(make(option), plain) << option.front();
 }
 
+// In every scene, every option changes the mesh or is refused.
+TEST(App_generate, RefusesOptionsThatChangeNothing)
+{
+  const Workspace folder;
+  struct Change
+  {
+    std::string option, value;
+    void (*make)(Generate_options&);
+  };
+  const Change changes[] = {
+      {"--layers", "2", [](Generate_options& options) { options.layers = 2; }},
+      {"--thickness", "4e-4", [](Generate_options& options) { options.thickness = 4e-4; }},
+      {"--gap", "9e-4", [](Generate_options& options) { options.gap = 9e-4; }},
+      {"--fold-depth", "0.01", [](Generate_options& options) { options.fold_depth = 0.01; }},
+      {"--folds", "9", [](Generate_options& options) { options.folds = 9; }},
+      {"--seed", "2", [](Generate_options& options) { options.seed = 2; }}};
+  for (const Scene_description& scene : scenes())
+    for (const Change& change : changes) {
+      SCOPED_TRACE(std::string(scene.name) + ' ' + change.option);
+      Generate_options options;
+      options.faces = 4000;
+      const std::vector<Point_3> plain = generate(scene.name, options).points;
+      change.make(options);
+      const std::vector<std::string> command{
+          "generate", std::string(scene.name), "-o",        folder / "out.obj", "--faces",
+          "4000",     change.option,           change.value};
+      if (generate(scene.name, options).points == plain)
+        expect_refused(command, 2, change.option + ": changes nothing in the scene");
+      else
+        EXPECT_EQ(run_app(command).code, 0);
+    }
+}
+
 TEST(App_generate, StaysEmbeddedInFloatsOrIsRefused)
 {
   const Workspace folder;

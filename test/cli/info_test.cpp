@@ -141,7 +141,9 @@ TEST(App_info, RefusesWhatIsNoMesh)
   write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   expect_refused({"info", mesh}, 3, mesh);
   write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n");
-  expect_refused({"info", mesh}, 3, mesh);
+  expect_refused({"info", mesh}, 3, mesh + ": every triangle of the mesh has two corners at one position");
+  EXPECT_NE(run_app({"info", "--help"}).out.find("or every face has two corners at one position"),
+            std::string::npos);
   expect_refused({"info"}, 2, "MESH");
   write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   expect_refused({"info", mesh, "--report", mesh}, 2, "--report");

@@ -266,9 +266,11 @@ TEST(App_simplify, GoesThroughEveryFormat)
   const Workspace folder;
   const std::string in = folder.generate("skirt", "in.obj", 2000);
   const std::set<Position> original = positions(read_mesh(in).soup);
-  for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl"})
+  for (const std::string name : {"a.obj", "a.off", "a.ply", "a.stl"})
     for (const bool is_ascii : {false, true}) {
-      SCOPED_TRACE(std::string(name) + (is_ascii ? " ascii" : ""));
+      if (is_ascii && (name == "a.obj" || name == "a.off")) // which are text in any case
+        continue;
+      SCOPED_TRACE(name + (is_ascii ? " ascii" : ""));
       const std::string out = folder / name, again = folder / "again.obj";
       std::vector<std::string> command{"simplify", in,        "-o",          out,       "--ratio",
                                        "0.6",      "--quiet", "--placement", "vertices"};

@@ -192,6 +192,51 @@ TEST(App_usage, RefusesWhatMakesNoSense)
   EXPECT_EQ(folder.files(), 1u);
 }
 
+// An option that changes nothing beside the others is a mistake.
+TEST(App_usage, RefusesWhatWouldDoNothing)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200),
+                    scene = folder.generate("grid", "in.glb", 200);
+  const std::string out = folder / "out.obj", glb = folder / "out.glb", log = folder / "in.log";
+  ASSERT_EQ(
+      run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--log", log, "--placement", "vertices"}).code,
+      0);
+  const std::size_t files = folder.files();
+  const char* const ascii = "--ascii: only PLY and STL";
+  const char* const polygons = "--polygons: only OBJ, OFF and PLY";
+  const std::pair<std::vector<std::string>, const char*> idle[] = {
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50"}, "or give --index clusters"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--ascii"}, ascii},
+      {{"simplify", in, "-o", glb, "--lods", "1,0.5", "--ascii"}, ascii},
+      {{"simplify", in, "-o", glb, "--ratio", "0.5", "--polygons", "keep"}, polygons},
+      {{"simplify", in, "-o", glb, "--ratio", "0.5", "--instances", "shared"}, "in.obj is of another format"},
+      {{"simplify", scene, "-o", out, "--ratio", "0.5", "--instances", "apart"},
+       "the output is of another format"},
+      {{"replay", in, log, "--ascii"}, ascii},
+      {{"replay", in, log, "-o", out, "--ascii"}, ascii},
+      {{"replay", in, log, "--polygons", "split"}, polygons},
+      {{"replay", in, log, "-o", glb, "--polygons", "split"}, polygons},
+      {{"level", scene, "-o", out, "--ratio", "0.5", "--ascii"}, ascii},
+      {{"generate", "skirt", "-o", out, "--ascii"}, ascii},
+      {{"generate", "--list", "-o", out}, "leave it out, or --output"},
+      {{"generate", "--list", "skirt"}, "leave it out, or NAME"},
+      {{"generate", "sheets", "-o", out, "--thickness", "0"},
+       "--thickness: changes nothing in the scene 'sheets'"}};
+  for (const auto& [arguments, what] : idle)
+    expect_refused(arguments, 2, what);
+  EXPECT_EQ(folder.files(), files);
+  const std::vector<std::string> of_use[] = {
+      {"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50", "--index", "clusters"},
+      {"simplify", in, "-o", out, "--ratio", "0.5", "--polygons", "keep"},
+      {"simplify", in, "-o", folder / "out.ply.gz", "--ratio", "0.5", "--ascii"},
+      {"simplify", in, "-o", out, "--ratio", "0.5", "--pose", in, "--poses-out", folder / "{pose}.stl",
+       "--ascii"},
+      {"simplify", scene, "-o", glb, "--ratio", "0.5", "--instances", "apart"}};
+  for (const std::vector<std::string>& arguments : of_use)
+    EXPECT_EQ(run_app(arguments).code, 0) << arguments.back();
+}
+
 TEST(App_usage, RequiresATargetThatIsGiven)
 {
   const Workspace folder;
