@@ -25,8 +25,6 @@
 namespace selvedge::app {
 namespace {
 
-constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
-
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
 constexpr double default_error = 0.01;
 
@@ -220,13 +218,6 @@ bool is_without_target(const Simplify_request& request)
          (request.error.empty() || request.error == "none") && request.lods.empty();
 }
 
-std::string with_mark_replaced(std::string name, std::string_view mark, const std::string& text)
-{
-  for (std::size_t place = 0; (place = name.find(mark, place)) != std::string::npos; place += text.size())
-    name.replace(place, mark.size(), text);
-  return name;
-}
-
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
@@ -269,9 +260,7 @@ void check(const Simplify_request& request)
   // A mesh may replace its input, but nothing else may.
   require_distinct(written, files_read_beside(request));
   require_distinct(beside, {{"IN", request.input}});
-  for (const Named_file& file : written)
-    if (!file.path.empty())
-      require_writable(file.path);
+  require_writable(written);
 }
 
 } // namespace

@@ -44,11 +44,11 @@ struct Cells_request
   std::optional<std::size_t> threads;
 };
 
-constexpr std::string_view cell_mark = "{cell}", plan_kind = "selvedge cells";
+constexpr std::string_view plan_kind = "selvedge cells";
 
 std::string with_cell(const std::string& pattern, const std::string& cell)
 {
-  return std::string(pattern).replace(pattern.find(cell_mark), cell_mark.size(), cell);
+  return with_mark_replaced(pattern, cell_mark, cell);
 }
 
 void require_mark(const std::string& option, const std::string& pattern)

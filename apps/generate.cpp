@@ -18,7 +18,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace selvedge::app {
 namespace {
@@ -38,14 +37,11 @@ struct Generate_request
 
 std::string named_pose(const Generate_request& request, const std::string& pose)
 {
-  constexpr std::string_view mark = "{pose}";
-  std::string name = request.poses_output;
-  const std::size_t place = name.find(mark);
-  if (place == std::string::npos)
+  if (request.poses_output.find(pose_mark) == std::string::npos)
     throw Argument_error(
         "--poses-out: the name must contain {pose}, which stands for the number of the pose, or "
         "be that of a point cache (.mdd, .pc2)");
-  return name.replace(place, mark.size(), pose);
+  return with_mark_replaced(request.poses_output, pose_mark, pose);
 }
 
 // The options that change nothing in a scene; garments use all.

@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace selvedge::app {
@@ -33,8 +32,6 @@ struct Level_request
   bool is_quiet = false;
   bool is_ascii = false;
 };
-
-constexpr std::string_view s_mark_of_pose = "{pose}";
 
 // Says why a progressive file has no poses to write, and where its shapes are instead.
 std::string without_poses(const Triangle_soup& soup)
@@ -58,14 +55,10 @@ void write_poses(const Level_request& request, const Triangle_soup& soup)
   if (is_point_cache(request.poses_output))
     return write_point_cache(output_path(request.poses_output), soup);
   std::vector<Named_file> written = {{"--output", request.output}};
-  for (const Pose& pose : soup.poses) {
-    std::string name = request.poses_output;
-    name.replace(name.find(s_mark_of_pose), s_mark_of_pose.size(), pose.name);
-    written.push_back({"--poses-out", name});
-  }
+  for (const Pose& pose : soup.poses)
+    written.push_back({"--poses-out", with_mark_replaced(request.poses_output, pose_mark, pose.name)});
   require_distinct(written, {{"FILE", request.input}});
-  for (const Named_file& file : written)
-    require_writable(file.path);
+  require_writable(written);
   for (std::size_t i = 0; i < soup.poses.size(); ++i) {
     const std::filesystem::path& path = written[i + 1].path;
     write_output(path, in_pose(soup, i), output_format(path), request.is_ascii);
@@ -82,7 +75,7 @@ Exit_code run(const Level_request& request)
   require_distinct({{"--output", request.output}}, {{"FILE", request.input}});
   require_writable(request.output);
   if (!request.poses_output.empty() && !is_point_cache(request.poses_output) &&
-      request.poses_output.find(s_mark_of_pose) == std::string::npos)
+      request.poses_output.find(pose_mark) == std::string::npos)
     throw Argument_error(
         "--poses-out: the name must contain {pose}, which stands for the name of the pose, or be "
         "that of a point cache (.mdd, .pc2)");

@@ -101,6 +101,20 @@ void require_writable(const fs::path& name)
     refuse(errno);
 }
 
+void require_writable(const std::vector<Named_file>& files)
+{
+  for (const Named_file& file : files)
+    if (!file.path.empty())
+      require_writable(file.path);
+}
+
+std::string with_mark_replaced(std::string name, std::string_view mark, const std::string& text)
+{
+  for (std::size_t place = 0; (place = name.find(mark, place)) != std::string::npos; place += text.size())
+    name.replace(place, mark.size(), text);
+  return name;
+}
+
 bool is_standard_output(const fs::path& name)
 {
   const fs::path path = output_path(name);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace selvedge::app {
@@ -29,6 +30,13 @@ std::filesystem::path output_path(const std::filesystem::path& name);
 /// Throws `Output_error` when a file cannot be written, as far as that is clear before any work is done.
 void require_writable(const std::filesystem::path& name);
 
+/// What stands in the name of an output for the number of a level, the name of a pose, or the number of a
+/// cell.
+inline constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}", cell_mark = "{cell}";
+
+/// Returns the name of a file with `text` in place of each such mark.
+std::string with_mark_replaced(std::string name, std::string_view mark, const std::string& text);
+
 /// A file of a run, and the option that names it. An empty path stands for an option that was not given.
 struct Named_file
 {
@@ -39,6 +47,9 @@ struct Named_file
 /// Throws `Argument_error` when two of the files that a run writes are one file, by whatever spelling, or
 /// when one of them is also read. The files need not exist. Devices and pipes may be named several times.
 void require_distinct(const std::vector<Named_file>& written, const std::vector<Named_file>& read);
+
+/// Throws `Output_error` when one of the files cannot be written.
+void require_writable(const std::vector<Named_file>& files);
 
 /// Returns whether the name of a file stands for this program's standard output.
 bool is_standard_output(const std::filesystem::path& name);

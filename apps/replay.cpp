@@ -307,9 +307,7 @@ Exit_code run(const Replay_request& request)
   append_pose_files(read, "--pose", request.poses.files, request.original);
   append_pose_files(read, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   require_distinct(written, read);
-  for (const Named_file& file : written)
-    if (!file.path.empty())
-      require_writable(file.path);
+  require_writable(written);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
   std::unique_ptr<std::istream> stream = open_text(request.log);

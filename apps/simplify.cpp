@@ -200,9 +200,7 @@ private:
     require_distinct(written, files_read_beside(m_request));
     // The mesh may take the place of the input, but no pose may.
     require_distinct(poses_written, {{"IN", m_request.input}});
-    for (const Named_file& file : written)
-      if (!file.path.empty())
-        require_writable(file.path);
+    require_writable(written);
   }
 
   Prepared_soup read_and_prepare()

@@ -332,9 +332,7 @@ Exit_code run(const Verify_request& request)
   append_pose_files(read, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   append_pose_files(read, "--against-pose", request.files_of_poses_of_original, request.original);
   require_distinct(written, read);
-  for (const Named_file& file : written)
-    if (!file.path.empty())
-      require_writable(file.path);
+  require_writable(written);
   Mesh_file mesh = Mesh_input(request.mesh, request.format).read(request.level);
   Pose_sources of_mesh = request.poses, of_original = request.poses;
   of_original.files = request.files_of_poses_of_original;

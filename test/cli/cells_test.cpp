@@ -48,6 +48,14 @@ TEST(App_cells, CutsAMeshWhosePiecesAreReducedAndJoined)
                  "cell_1.ply: is not the piece that was cut");
 }
 
+TEST(App_cells, NumbersEveryMarkOfAName)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.ply", 200);
+  ASSERT_EQ(run_app({"cells", "cut", in, "-o", folder / "{cell}_{cell}.ply", "--cells", "2"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "2_2.ply"));
+}
+
 TEST(App_cells, RefusesWhatMakesNoSense)
 {
   const Workspace folder;
