@@ -95,7 +95,7 @@ bool is_one_file_of_poses(const std::string& name);
 /// (from 1), with the name of the pose in place of {pose}.
 std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose);
 
-/// Returns whether the request asks for a mesh, report or log on this program's standard output.
+/// Returns whether the request writes something to this program's standard output.
 bool has_standard_output(const Simplify_request& request);
 
 /// Returns whether the user has set a limit of the distances between original and result.

@@ -356,7 +356,6 @@ void add_inspection(Json& report, const Inspection& mesh)
   Json surfaces = Json::array();
   for (const Index number : largest) {
     const Connected_surface& surface = mesh.surfaces[number];
-    const auto genus = surface.genus();
     surfaces.push_back({{"number", number + 1},
                         {"first_triangle", surface.shape.first_triangle + 1},
                         {"faces", surface.shape.faces},
@@ -366,7 +365,7 @@ void add_inspection(Json& report, const Inspection& mesh)
                         {"non_manifold_edges", surface.shape.non_manifold_edges},
                         {"misoriented_edges", surface.misoriented_edges},
                         {"euler_characteristic", surface.shape.euler_characteristic},
-                        {"genus", genus ? Json(*genus) : Json(nullptr)},
+                        {"genus", or_null(surface.genus())},
                         {"nearest", surface.nearest ? Json(*surface.nearest + 1) : Json(nullptr)},
                         {"distance", surface.nearest ? Json(surface.distance) : Json(nullptr)}});
   }

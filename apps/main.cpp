@@ -52,14 +52,14 @@ std::size_t letters_apart(const std::string& a, const std::string& b)
   return apart.back().back();
 }
 
-// Says that there is no such word, and which word is meant: the nearest, if it is near, or else one of all.
+// Says that there is no such word, and asks whether the nearest one is meant, if it is near.
 std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& words)
 {
   const auto nearest =
       std::min_element(words.begin(), words.end(), [&](const std::string& a, const std::string& b) {
         return letters_apart(word, a) < letters_apart(word, b);
       });
-  std::string message = "there is no " + kind + " '" + word + "'";
+  const std::string message = "there is no " + kind + " '" + word + "'";
   if (letters_apart(word, *nearest) <= std::max<std::size_t>(1, nearest->size() / 3))
     return message + "; did you mean '" + *nearest + "'?";
   return message;

@@ -67,7 +67,7 @@ Json to_json(const Reduction_limits& limits)
 {
   Json object = Json::object();
   for (const Limit_description& limit : limit_descriptions)
-    object[limit.key] = limits.*limit.value ? Json(*(limits.*limit.value)) : Json(nullptr);
+    object[limit.key] = or_null(limits.*limit.value);
   return object;
 }
 
@@ -76,14 +76,10 @@ Json to_json(const Violation& violation)
   Json triangles = Json::array();
   for (const Index triangle : violation.triangles)
     triangles.push_back(triangle + 1);
-  return {{"kind", name(violation.kind)},
-          {"step", violation.step},
-          {"line", violation.line},
-          {"removed", violation.removed},
-          {"kept", violation.kept},
-          {"triangles", std::move(triangles)},
-          {"message", violation.message},
-          {"point", violation.point.empty() ? Json(nullptr) : Json(violation.point)}};
+  return {{"kind", name(violation.kind)}, {"step", violation.step},
+          {"line", violation.line},       {"removed", violation.removed},
+          {"kept", violation.kept},       {"triangles", std::move(triangles)},
+          {"message", violation.message}, {"point", or_null(violation.point)}};
 }
 
 Json to_json(const Bounds& bounds)
@@ -171,10 +167,9 @@ Json border_gaps_json(const Border_gaps& gaps)
           {"half_within", within(0.5)},
           {"most_within", within(0.9)},
           {"all_within", within(1)},
-          {"clear_length", gaps.clear_length ? Json(*gaps.clear_length) : Json(nullptr)},
+          {"clear_length", or_null(gaps.clear_length)},
           {"within_clear_length", gaps.within_clear_length},
-          {"clear_length_to_edges",
-           gaps.clear_length_to_edges ? Json(*gaps.clear_length_to_edges) : Json(nullptr)},
+          {"clear_length_to_edges", or_null(gaps.clear_length_to_edges)},
           {"within_clear_length_to_edges", gaps.within_clear_length_to_edges}};
 }
 

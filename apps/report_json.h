@@ -25,6 +25,19 @@ namespace selvedge::app {
 /// A JSON value whose keys keep the order in which they are set.
 using Json = nlohmann::ordered_json;
 
+/// Returns a value, or null where there is none.
+template <class Value>
+Json or_null(const std::optional<Value>& value)
+{
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// Returns a text, or null where it is empty.
+inline Json or_null(const std::string& text)
+{
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
 /// Returns the first keys of every report: `schema`, `version` and `command`.
 Json new_report(const std::string& command);
 
@@ -34,12 +47,12 @@ Json input_json(const std::filesystem::path& path, const Mesh_file& file);
 /// Returns what a report says of the gaps between borders.
 Json border_gaps_json(const Border_gaps& gaps);
 
-/// Sets `faces`, `target`, `collapses`, `passes`, `cells`, `hindrances`, `refused`, `frozen`, `index`,
-/// `welding`, `border_gaps`, `snap` and `rounding`.
+/// Says what was prepared and how the reduction went: sets the keys from `faces` to `rounding`
+/// (docs/report.md).
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
-/// Says of each of the further poses, after `add_verification`, whether it was guarded, and how many collapses
-/// were refused in it. `guarded` are the numbers of those that were, in ascending order.
+/// Says of each of the further poses, after `add_verification`, whether it was guarded, and how many
+/// collapses were refused in it. `guarded` are the numbers of those that were, in ascending order.
 void add_guarded_poses(Json& report, const std::vector<std::size_t>& guarded, const Simplified_soup& result);
 
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
@@ -73,7 +86,7 @@ private:
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
 void add_comparison(Json& report, const Verification& verification, const Comparison& comparison);
 
-/// Sets `parts`, and `uv` where there is a texture.
+/// Sets `parts` and `uv`.
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
 /// Counts violations by the names of their kinds.

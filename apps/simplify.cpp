@@ -548,16 +548,15 @@ private:
       return;
     double seconds_parts = 0;
     const auto add_level = [&](Json& json, const Level& level) {
-      json["output"] = {
-          {"path", level.output},
-          {"written", m_outcome.is_written()},
-          {"level", level.number == 0 ? Json(nullptr) : Json(level.number)},
-          {"polygons", level.polygons.output},
-          {"larger", level.bytes_more == 0 ? Json(nullptr) : Json(enlargement(m_request, level))},
-          {"not_carried", dropped},
-          {"references", m_references},
-          {"placement", name_of(placement_for(m_request, prepared.soup))},
-          {"normals", name_of(prepared.normals)}};
+      json["output"] = {{"path", level.output},
+                        {"written", m_outcome.is_written()},
+                        {"level", level.number == 0 ? Json(nullptr) : Json(level.number)},
+                        {"polygons", level.polygons.output},
+                        {"larger", or_null(enlargement(m_request, level))},
+                        {"not_carried", dropped},
+                        {"references", m_references},
+                        {"placement", name_of(placement_for(m_request, prepared.soup))},
+                        {"normals", name_of(prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
