@@ -394,14 +394,16 @@ private:
     m_seconds.add(prepared, all);
     const std::vector<std::string> names = outputs(m_request);
     m_seconds_of_levels.resize(results.size(), 0);
-    std::vector<Level> levels;
+    const bool is_one_file = are_levels_in_one_file(m_request);
+    std::vector<Level> levels(results.size());
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const bool is_one_of_file = are_levels_in_one_file(m_request);
-      levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
-      levels.back().error_search = m_error_search;
-      levels.back().seconds = m_seconds_of_levels[i] += levels.back().result.report.seconds_reduce;
-      if (is_one_of_file)
-        levels.back().number = i + 1;
+      Level& level = levels[i];
+      level.output = names[is_one_file ? 0 : i];
+      level.number = is_one_file ? i + 1 : 0;
+      level.result = std::move(results[i]);
+      level.guarded_poses = m_guarded_poses;
+      level.error_search = m_error_search;
+      level.seconds = m_seconds_of_levels[i] += level.result.report.seconds_reduce;
     }
     return levels;
   }

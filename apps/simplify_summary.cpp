@@ -3,23 +3,19 @@
 
 #include "simplify_summary.h"
 
+#include "advice.h"
 #include "coarse_part.h"
 #include "doubtful_units.h"
 #include "fate_of_limit.h"
 #include "output_files.h"
-#include "small_pieces.h"
 #include "standard_streams.h"
 #include "text.h"
 
-#include <selvedge/Missed_target.h>
 #include <selvedge/Parts.h>
-#include <selvedge/attributes.h>
 #include <selvedge/gltf_poses.h>
-#include <selvedge/inspect.h>
 #include <selvedge/normals.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <ostream>
@@ -37,131 +33,10 @@ constexpr double far_off = 0.01;
 /// What the arithmetic of distances leaves where there is none, as a share of the size.
 constexpr double rounding = 0x1p-44;
 
-/// Returns the reasons that hold edges back, those of most edges first.
-std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
-{
-  std::vector<Hindrances::Description> reasons;
-  for (const Hindrances::Description& description : Hindrances::descriptions())
-    if (hindrances[description.reason] > 0)
-      reasons.push_back(description);
-  std::stable_sort(reasons.begin(), reasons.end(),
-                   [&](const auto& a, const auto& b) { return hindrances[a.reason] > hindrances[b.reason]; });
-  return reasons;
-}
-
-/// Returns the options that let the faces go that were kept for the shape.
-std::string options_without_shape(const Simplify_request& request, const Simplify_report& report)
-{
-  const std::vector<Simplify_intent::Part_ratio>& parts = request.intent.ratios;
-  std::string options;
-  for (std::size_t i = 0; i < report.shares.size(); ++i) {
-    const Simplify_report::Share& share = report.shares[i];
-    if (share.within_reach == 0)
-      continue;
-    const std::string ratio =
-        with_digits_up(double(share.within_reach - share.fixed) / double(share.input - share.fixed));
-    if (i > 0)
-      options += " --ratio '" + parts[i - 1].name + '=' + ratio + '\'';
-    else if (!request.lods.empty())
-      options += " --lods " + ratio;
-    else if (request.options.ratio && !parts.empty())
-      options += " --ratio " + ratio;
-    else
-      options += " --faces " + std::to_string(share.within_reach);
-  }
-  return options;
-}
-
-/// Says, where a target is missed, which faces were kept for the shape; or that it was flattened, and what
-/// helps: many of the last faces are given for little.
-std::string what_shape_takes(const Simplify_request& request, const Level& level)
-{
-  const std::size_t faces = level.result.report.faces_output,
-                    within_reach = level.result.report.faces_within_reach;
-  if (within_reach > 0 && within_reach < faces)
-    return "\nkept: " + counted(faces - within_reach, "face") +
-           " that could go, because all that nothing holds would be flattened for them;" +
-           options_without_shape(request, level.result.report) + " lets them go";
-  const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
-  if (is_shape_kept(request) || !is_asked_for_target ||
-      !Missed_target::is_flattened(request.options, level.verification.distances->original_to_result))
-    return "";
-  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*request.options.max_error) +
-         " allows; a ratio that is larger by a tenth keeps more of its shape";
-}
-
-/// Says, where a target is reached, that most vertices left lie on seams of the texture, and what helps:
-/// there the surface has given its vertices for the seams.
-std::string what_texture_takes(const Simplify_request& request, const Triangle_soup& soup)
-{
-  constexpr std::size_t most_vertices = 100000; // in meshes that have more, few are on seams
-  if (soup.uvs.empty() || soup.points.size() > most_vertices)
-    return "";
-  std::vector<std::pair<Point_3, std::array<double, 2>>> values; // of all corners, each once
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      values.emplace_back(soup.points[soup.triangles[t][k]], soup.uvs.values[soup.uvs.of_triangle[t][k]]);
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  std::size_t positions = 0, on_seams = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool is_first = i == 0 || values[i - 1].first != values[i].first;
-    positions += is_first;
-    on_seams += is_first && i + 1 < values.size() && values[i + 1].first == values[i].first;
-  }
-  if (2 * on_seams <= positions)
-    return "";
-  return "\ntexture: " + with_commas(on_seams) + " of " + counted(positions, "vertex", "vertices") +
-         " left lie on its seams, which keep their course; " +
-         (request.options.max_seam_turn < 180 ? "--seam-turn 180 lets them go straighter, " : "") +
-         "--drop-attribute texture lets them go, if it is baked anew";
-}
-
 bool has_vertex_values(const Triangle_soup& soup)
 {
   return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
          soup.scene != nullptr;
-}
-
-/// Returns the option that takes a reason away; empty when none does.
-std::string remedy(Hindrance reason, const Simplify_request& request)
-{
-  const Simplify_options& options = request.options;
-  switch (reason) {
-  case Hindrance::frozen:
-    return defects_of(request) == Defects::freeze ? "--defects descend" : "";
-  case Hindrance::misoriented:
-    return request.are_faces_oriented ? "" : "--orient auto";
-  case Hindrance::locked:
-    return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
-  case Hindrance::normals:
-    return joins_vertices(request.normals) || !request.progressive.empty() ? "" : "--normals loose";
-  case Hindrance::border_turn:
-    return options.max_border_turn < 180 ? "--border-turn 180" : "";
-  case Hindrance::seam_turn:
-    return options.max_seam_turn < 180 ? "--seam-turn 180" : "";
-  case Hindrance::drift:
-    return "--border-drift " +
-           with_digits(options.max_border_drift > 0 ? 5 * options.max_border_drift : 0.01);
-  case Hindrance::gap:
-    return request.open_seams == Open_seams::hold ? "--weld auto or none" : "";
-  case Hindrance::aspect_ratio:
-    return options.min_aspect_ratio > 0 ? "--aspect-ratio 0" : "";
-  case Hindrance::normal_change:
-    return options.max_normal_change < 90    ? "--normal-change 90"
-           : options.max_normal_change < 180 ? "--normal-change 180"
-                                             : "";
-  case Hindrance::error:
-    return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
-  case Hindrance::clearance:
-    return "--clearance " + with_digits(*options.clearance / 2);
-  case Hindrance::companions:
-    return "--instances apart";
-  case Hindrance::by_loop:
-    return "--loop own";
-  default:
-    return "";
-  }
 }
 
 /// Says how many of the offending pairs the input does not explain.
@@ -173,144 +48,6 @@ std::string origin_of_pairs(const Verification& verification, Defects defects)
   const std::string of_input = with_commas(verification.pairs_of_original) + " of the input";
   return unexplained == 0 ? "all descended from the " + of_input
                           : with_commas(unexplained) + " of them NOT descended from the " + of_input;
-}
-
-/// Says why no option takes a reason away.
-std::string why_it_stays(Hindrance reason)
-{
-  switch (reason) {
-  case Hindrance::frozen:
-    return "what only rounding has brought to one place stays as it is";
-  case Hindrance::non_manifold:
-    return "what meets at edges of three faces or more stays as it is";
-  case Hindrance::misoriented:
-    return "what cannot be turned to face one way, like a Moebius band, stays as it is there";
-  case Hindrance::topology:
-    return "every piece keeps its holes and handles";
-  case Hindrance::intersection:
-    return "no layer passes through another";
-  default:
-    return "borders, seams and textures are kept";
-  }
-}
-
-/// Options that are named to a user whose target was missed.
-struct Remedies
-{
-  std::string text;      // empty when there is none
-  std::size_t edges = 0; // that are held by the reasons against which they are
-};
-
-/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
-/// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
-/// one of them lets go may be held by the other.
-Remedies remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
-                  const Simplify_request& request)
-{
-  std::vector<std::pair<std::string, Hindrances::Description>> options;
-  const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
-  for (const Hindrances::Description& description : all) {
-    const std::string option = remedy(description.reason, request);
-    if (option.empty() || 10 * hindrances[description.reason] < total)
-      continue;
-    if (!options.empty() && 2 * hindrances[description.reason] < hindrances[options[0].second.reason])
-      break;
-    options.emplace_back(option, description);
-    if (options.size() == 2)
-      break;
-  }
-  Remedies result;
-  for (const auto& [option, description] : options) {
-    const bool is_clear = options.size() == 1 && description.reason == all[0].reason;
-    result.text += (result.text.empty() ? "" : " and ") + option +
-                   (is_clear ? "" : std::string(" against ") + description.name);
-    result.edges += hindrances[description.reason];
-  }
-  return result;
-}
-
-/// Names the attribute that makes most of the seams that nothing else makes, if they are many. A texture is
-/// named where seams and their ends hold more edges than the options that are named are against.
-std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
-                               const Remedies& options)
-{
-  const std::size_t by_seams =
-      hindrances[Hindrance::seam] + hindrances[Hindrance::texture] + hindrances[Hindrance::line_end];
-  const bool is_texture_left = !options.text.empty() && options.edges >= by_seams;
-  std::pair<std::string, std::size_t> most;
-  for (const auto& [name, count] : seams_of_attributes(prepared))
-    if (count > most.second && !(is_texture_left && name == "texture"))
-      most = {name, count};
-  if (10 * most.second < hindrances.total())
-    return "";
-  const std::string name = name_to_drop(most.first);
-  return "; " + counted(most.second, "edge") + " of the input " +
-         (most.second == 1 ? "is a seam" : "are seams") + " because of " + most.first +
-         " and nothing else: " +
-         (name.empty() ? "leave it out of the file" : "--drop-attribute " + name + " lets them go") +
-         ", if nobody needs it";
-}
-
-/// Names what holds open seams, if that holds many edges: gaps that get no wider, and borders that drift less
-/// there.
-std::string seams_to_let_gape(const Simplify_request& request, const Prepared_soup& prepared,
-                              const Hindrances& hindrances)
-{
-  const std::size_t held = hindrances[Hindrance::gap] + hindrances[Hindrance::drift];
-  if (request.open_seams != Open_seams::hold || prepared.facing.empty() || 10 * held < hindrances.total())
-    return "";
-  return "; " + with_commas(held) +
-         " are held so that seams that stand open get hardly wider: --weld none lets them go";
-}
-
-/// Says in a line what holds back a reduction that ended by itself, and what helps.
-std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
-                      const Simplify_report& report)
-{
-  const Hindrances& hindrances = report.hindrances;
-  if (hindrances.total() == 0)
-    return "all faces left are fixed; no option helps";
-  constexpr std::size_t least_named = 3; // and as many as make two thirds of the edges
-  std::string text =
-      "of " + counted(hindrances.total(), "edge") + " left" +
-      (report.faces_within_reach > 0 ? " at " + counted(report.faces_within_reach, "face") : "") + ", ";
-  const std::vector<Hindrances::Description> all = reasons(hindrances);
-  std::size_t others = hindrances.total();
-  for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > hindrances.total()); ++i) {
-    const std::size_t count = hindrances[all[i].reason];
-    text += (i == 0 ? "" : ", ") + (count == hindrances.total() ? "all" : with_commas(count)) + " by " +
-            all[i].name;
-    others -= count;
-  }
-  if (others > 0)
-    text += ", " + with_commas(others) + " by other rules";
-  const Remedies options = remedies(all, hindrances, request);
-  const std::string seams = seams_to_leave_out(prepared, hindrances, options),
-                    gaping = options.text.find("--weld") != std::string::npos
-                                 ? ""
-                                 : seams_to_let_gape(request, prepared, hindrances);
-  if (!options.text.empty())
-    text += "; try " + options.text +
-            (options.text.find("--error") != std::string::npos ? ", which costs shape" : "");
-  else if (seams.empty() && gaping.empty())
-    text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
-  return text + seams + gaping;
-}
-
-/// Says how few faces a missed target leaves for each piece, if that is hardly enough for a shape. Islands of
-/// an atlas are pieces, and so are stitches, and none of them vanishes.
-std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplify_report& report)
-{
-  constexpr double hardly_enough = 8;
-  const double pieces = double(part_kinds(prepared.soup).front().count);
-  if (pieces < 2 || report.faces_target == 0 || double(report.faces_target) > hardly_enough * pieces)
-    return "";
-  const std::optional<Small_pieces> small = small_pieces(prepared.soup);
-  return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
-         " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes" +
-         (small ? "; --drop-smaller " + small->length + " leaves out the small ones, " +
-                      with_commas(small->count) + " with " + counted(small->triangles, "face")
-                : "");
 }
 
 /// Says in a clause where a vertex of the original is.
@@ -433,6 +170,181 @@ void print_doubtful_pose(std::ostream& stream, const Triangle_soup& soup)
     }
 }
 
+void print_distances(std::ostream& stream, const Level& level, const Distances_anywhere& distances,
+                     double limit)
+{
+  const auto& [there, back] = distances;
+  const bool has_poses = !level.verification.poses.empty();
+  stream << "distance of any point" << (has_poses ? " in any pose" : "") << ": at most "
+         << percent(there.upper) << " from the original to the result, " << percent(back.upper) << " back";
+  if (has_poses)
+    stream << "; the most in " << describe_pose(level.verification, distances.larger().pose);
+  stream << '\n';
+  if (const std::string fate =
+          fate_of_limit(limit, distances.larger(), level.error_search, level.guarded_poses);
+      !fate.empty())
+    stream << fate << '\n';
+}
+
+/// Returns whether vertices at new places are allowed, and would have come nearer to the original: they do
+/// where few faces are left, on all meshes that were measured.
+bool would_new_places_help(const Simplify_request& request, const Prepared_soup& prepared, const Level& level)
+{
+  constexpr double few = 0.2;   // of the faces
+  constexpr double near = 1e-4; // root mean square distance, as a share of the diagonal
+  const bool are_allowed = request.poses.empty() && request.progressive.empty() && request.lods.empty() &&
+                           level.result.shared_meshes == 0;
+  return are_allowed && placement_for(request, prepared.soup) == Placement::vertices &&
+         double(level.result.soup.triangles.size()) <= few * double(prepared.soup.triangles.size()) &&
+         level.verification.distances->original_to_result.root_mean_square > near;
+}
+
+void print_normals(std::ostream& stream, Normals_choice choice, Normals_treatment treatment,
+                   const Simplified_soup& result)
+{
+  const std::size_t others = std::max(result.fitted_normals, result.mended_normals);
+  if (treatment == Normals_treatment::smoothed)
+    stream << "\nnormals: fitted to the smooth shading of the input";
+  else if (are_fitted(treatment) && others > 0)
+    stream << "\nnormals: fitted to the shading of the input, other ones at " << counted(others, "corner")
+           << " of " << with_commas(3 * result.soup.triangles.size());
+  else if (others > 0)
+    stream << "\nnormals: kept, but for " << counted(others, "corner")
+           << " with a new one, as the old one is too far from the normal of the face";
+  if (choice == Normals_choice::automatic && treatment == Normals_treatment::picked)
+    stream << "\nhard edges: hardly any, so that none holds vertices (--normals mend keeps them all)";
+}
+
+// Says how far the mesh was reduced.
+void print_reach(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                 const Level& level)
+{
+  const Simplify_report& done = level.result.report;
+  const std::size_t faces = level.result.soup.triangles.size();
+  stream << "reduced to " << counted(faces, "face") << " ("
+         << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
+         << with_digits(level.seconds) << " s: ";
+  if (request.options.ratio || request.options.faces || !request.lods.empty() ||
+      !request.intent.ratios.empty())
+    stream << "target " << with_commas(done.faces_target)
+           << (done.is_reached() ? " reached"
+               : done.is_stopped ? " not reached: interrupted"
+                                 : " not reached");
+  else
+    stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
+}
+
+// Says what was done to the mesh besides.
+void print_reduction(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                     const Level& level)
+{
+  const Simplified_soup& result = level.result;
+  const Simplify_report& done = result.report;
+  const Mesh_format format = format_of(request.output, request.format);
+  const bool has_normals = format != Mesh_format::off && format != Mesh_format::stl;
+  const bool has_polygons = format != Mesh_format::stl && !is_gltf(format);
+  if (done.faces_fixed > 0)
+    stream << "\nfixed: " << counted(done.faces_fixed, "face")
+           << " with all corners frozen, locked or coincident; a ratio is of the other "
+           << with_commas(done.faces_input - done.faces_fixed);
+  if (result.shared_meshes > 0)
+    stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
+           << with_commas(result.shared_places) << " places reduced once, alike in all"
+           << (placement_for(request, prepared.soup) == Placement::optimal ? ", at vertices of the input"
+                                                                           : "");
+  if (request.is_sewn && prepared.soup.scene)
+    stream << "\nseams: not merged, because --sewn leaves the vertices of a glTF input as they are";
+  if (result.apart_meshes > 0)
+    stream
+        << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
+        << (prepared.soup.poses.empty()
+                ? " not the same in all places (snapped, rounded, degenerate or doubled in some), so each "
+                  "place was reduced by itself"
+                : " in several places, each of which was reduced by itself, because it may move by itself in "
+                  "poses");
+  if (result.untied_pairs > 0)
+    stream << "\nopen seams: " << counted(result.untied_pairs, "pair")
+           << " of border vertices not held, because their meshes were reduced once for several places; "
+              "--instances apart holds them";
+  if (const std::size_t turned = prepared.turned_faces(); turned > 0)
+    stream << "\norientation: " << counted(turned, "face")
+           << " turned to agree with the others of their surface, and turned back in the output";
+  if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
+    stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
+           << counted(sewing.misoriented_pieces, "piece") << ", whose vertices there do not move; "
+           << (request.are_faces_oriented ? "`selvedge info` names them"
+                                          : "--orient auto turns those that can be turned");
+  if (done.left_alone > 0)
+    stream << "\nopen seams: " << counted(done.left_alone, "border vertex", "border vertices")
+           << " stayed while the partner across the gap left; there the gap may be wider than it was";
+  if (result.placed_vertices > 0)
+    stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
+           << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
+           << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
+  if (has_normals)
+    print_normals(stream, request.normals, prepared.normals, result);
+  if (level.polygons.input > 0 && has_polygons)
+    stream << "\npolygons: " << with_commas(level.polygons.output) << " of "
+           << counted(level.polygons.input, "face") << " of more than three corners written as they were";
+}
+
+// Says what the judge found.
+void print_verdict(std::ostream& stream, const Prepared_soup& prepared, const Level& level)
+{
+  const Verification& verification = level.verification;
+  stream << "\njudged: ";
+  std::size_t permitted = 0;
+  for (const Verification::Permitted& parts : verification.permitted)
+    permitted += parts.pairs;
+  if (verification.pairs.empty())
+    stream << (permitted == 0 ? "embedded (no triangles touch or cross)"
+                              : "embedded, but for parts that may intersect");
+  else
+    stream << counted(verification.pairs.size(), "offending pair")
+           << " (triangles that touch or cross, or are degenerate), "
+           << origin_of_pairs(verification, prepared.defects);
+  stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
+  if (verification.clearance)
+    stream << "\nclearance: " << describe(*verification.clearance);
+  if (!verification.poses.empty())
+    print_poses(stream, level, prepared.defects);
+  for (const Verification::Permitted& parts : verification.permitted)
+    stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
+           << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
+}
+
+// Says how far the result is from the original.
+void print_deviation(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                     const Level& level)
+{
+  const Verification& verification = level.verification;
+  const Distance& distance = verification.distances->original_to_result;
+  stream << "\ndistance from the original's vertices"
+         << (verification.poses.empty() ? "" : " in the mesh's own pose") << ": ";
+  if (distance.maximum > 0 && distance.maximum <= rounding)
+    stream << "no more than rounding";
+  else
+    stream << percent(distance.root_mean_square) << " of the diagonal (RMS), at most "
+           << percent(distance.maximum);
+  stream << (would_new_places_help(request, prepared, level) ? "; --placement optimal comes nearer" : "")
+         << '\n';
+  if (level.distances_anywhere)
+    print_distances(stream, level, *level.distances_anywhere, *request.options.max_error);
+  if (distance.maximum > far_off)
+    stream << "worst deviation " << percent(distance.maximum) << " of the size, "
+           << place_of(distance.farthest, prepared.soup) << '\n';
+}
+
+/// Counts what a file got otherwise, which begins with a noun in the plural.
+std::string counted_note(std::size_t count, const std::string& what)
+{
+  const std::string plural = what.substr(0, what.find(' '));
+  const std::string singular = plural == "meshes"     ? "mesh"
+                               : plural == "vertices" ? "vertex"
+                                                      : plural.substr(0, plural.size() - 1);
+  return counted(count, singular, plural) + what.substr(plural.size());
+}
+
 } // namespace
 
 std::string name_of(const Level& level)
@@ -516,73 +428,12 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << (references.empty() ? "" : "\n");
 }
 
-void print_distances(std::ostream& stream, const Level& level, const Distances_anywhere& distances,
-                     double limit)
-{
-  const auto& [there, back] = distances;
-  const bool has_poses = !level.verification.poses.empty();
-  stream << "distance of any point" << (has_poses ? " in any pose" : "") << ": at most "
-         << percent(there.upper) << " from the original to the result, " << percent(back.upper) << " back";
-  if (has_poses)
-    stream << "; the most in " << describe_pose(level.verification, distances.larger().pose);
-  stream << '\n';
-  if (const std::string fate =
-          fate_of_limit(limit, distances.larger(), level.error_search, level.guarded_poses);
-      !fate.empty())
-    stream << fate << '\n';
-}
-
-/// Returns whether vertices at new places are allowed, and would have come nearer to the original: they do
-/// where few faces are left, on all meshes that were measured.
-bool would_new_places_help(const Simplify_request& request, const Prepared_soup& prepared, const Level& level)
-{
-  constexpr double few = 0.2;   // of the faces
-  constexpr double near = 1e-4; // root mean square distance, as a share of the diagonal
-  const bool are_allowed = request.poses.empty() && request.progressive.empty() && request.lods.empty() &&
-                           level.result.shared_meshes == 0;
-  return are_allowed && placement_for(request, prepared.soup) == Placement::vertices &&
-         double(level.result.soup.triangles.size()) <= few * double(prepared.soup.triangles.size()) &&
-         level.verification.distances->original_to_result.root_mean_square > near;
-}
-
-void print_normals(std::ostream& stream, Normals_choice choice, Normals_treatment treatment,
-                   const Simplified_soup& result)
-{
-  const std::size_t others = std::max(result.fitted_normals, result.mended_normals);
-  if (treatment == Normals_treatment::smoothed)
-    stream << "\nnormals: fitted to the smooth shading of the input";
-  else if (are_fitted(treatment) && others > 0)
-    stream << "\nnormals: fitted to the shading of the input, other ones at " << counted(others, "corner")
-           << " of " << with_commas(3 * result.soup.triangles.size());
-  else if (others > 0)
-    stream << "\nnormals: kept, but for " << counted(others, "corner")
-           << " with a new one, as the old one is too far from the normal of the face";
-  if (choice == Normals_choice::automatic && treatment == Normals_treatment::picked)
-    stream << "\nhard edges: hardly any, so that none holds vertices (--normals mend keeps them all)";
-}
-
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome, const Level* before)
 {
-  const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, error_search,
-               notes, bytes_more, seconds] = level;
-  const Mesh_format format = format_of(request.output, request.format);
-  const bool has_normals = format != Mesh_format::off && format != Mesh_format::stl;
-  const bool has_polygons = format != Mesh_format::stl && !is_gltf(format);
+  const Simplified_soup& result = level.result;
   const Simplify_report& done = result.report;
-  const std::size_t faces = result.soup.triangles.size();
-  const Distance& distance = verification.distances->original_to_result;
-  stream << "reduced to " << counted(faces, "face") << " ("
-         << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
-         << with_digits(seconds) << " s: ";
-  if (request.options.ratio || request.options.faces || !request.lods.empty() ||
-      !request.intent.ratios.empty())
-    stream << "target " << with_commas(done.faces_target)
-           << (done.is_reached() ? " reached"
-               : done.is_stopped ? " not reached: interrupted"
-                                 : " not reached");
-  else
-    stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
+  print_reach(stream, request, prepared, level);
   if (before && before->result.soup.points == result.soup.points &&
       before->result.soup.triangles == result.soup.triangles) {
     stream << "; the same mesh as the level before\n"
@@ -590,101 +441,19 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     return;
   }
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, prepared, done) << what_shape_takes(request, level)
+    stream << "\nheld back: " << held_back(request, prepared, done)
+           << what_shape_takes(request, done, level.verification.distances->original_to_result)
            << what_is_left_for_pieces(prepared, done);
   if (done.is_reached() && request.progressive.empty())
     stream << what_texture_takes(request, result.soup);
-  if (done.faces_fixed > 0)
-    stream << "\nfixed: " << counted(done.faces_fixed, "face")
-           << " with all corners frozen, locked or coincident; a ratio is of the other "
-           << with_commas(done.faces_input - done.faces_fixed);
-  if (result.shared_meshes > 0)
-    stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
-           << with_commas(result.shared_places) << " places reduced once, alike in all"
-           << (placement_for(request, prepared.soup) == Placement::optimal ? ", at vertices of the input"
-                                                                           : "");
-  if (request.is_sewn && prepared.soup.scene)
-    stream << "\nseams: not merged, because --sewn leaves the vertices of a glTF input as they are";
-  if (result.apart_meshes > 0)
-    stream
-        << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
-        << (prepared.soup.poses.empty()
-                ? " not the same in all places (snapped, rounded, degenerate or doubled in some), so each "
-                  "place was reduced by itself"
-                : " in several places, each of which was reduced by itself, because it may move by itself in "
-                  "poses");
-  if (result.untied_pairs > 0)
-    stream << "\nopen seams: " << counted(result.untied_pairs, "pair")
-           << " of border vertices not held, because their meshes were reduced once for several places; "
-              "--instances apart holds them";
-  if (const std::size_t turned = prepared.turned_faces(); turned > 0)
-    stream << "\norientation: " << counted(turned, "face")
-           << " turned to agree with the others of their surface, and turned back in the output";
-  if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
-    stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
-           << counted(sewing.misoriented_pieces, "piece") << ", whose vertices there do not move; "
-           << (request.are_faces_oriented ? "`selvedge info` names them"
-                                          : "--orient auto turns those that can be turned");
-  if (done.left_alone > 0)
-    stream << "\nopen seams: " << counted(done.left_alone, "border vertex", "border vertices")
-           << " stayed while the partner across the gap left; there the gap may be wider than it was";
-  if (result.placed_vertices > 0)
-    stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
-           << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
-           << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
-  if (has_normals)
-    print_normals(stream, request.normals, prepared.normals, result);
-  if (polygons.input > 0 && has_polygons)
-    stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
-           << " of more than three corners written as they were";
-  stream << "\njudged: ";
-  std::size_t permitted = 0;
-  for (const Verification::Permitted& parts : verification.permitted)
-    permitted += parts.pairs;
-  if (verification.pairs.empty())
-    stream << (permitted == 0 ? "embedded (no triangles touch or cross)"
-                              : "embedded, but for parts that may intersect");
-  else
-    stream << counted(verification.pairs.size(), "offending pair")
-           << " (triangles that touch or cross, or are degenerate), "
-           << origin_of_pairs(verification, prepared.defects);
-  stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
-  if (verification.clearance)
-    stream << "\nclearance: " << describe(*verification.clearance);
-  if (!verification.poses.empty())
-    print_poses(stream, level, prepared.defects);
-  for (const Verification::Permitted& parts : verification.permitted)
-    stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
-           << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
-  stream << "\ndistance from the original's vertices"
-         << (verification.poses.empty() ? "" : " in the mesh's own pose") << ": ";
-  if (distance.maximum > 0 && distance.maximum <= rounding)
-    stream << "no more than rounding";
-  else
-    stream << percent(distance.root_mean_square) << " of the diagonal (RMS), at most "
-           << percent(distance.maximum);
-  stream << (would_new_places_help(request, prepared, level) ? "; --placement optimal comes nearer" : "")
-         << '\n';
-  if (distances_anywhere)
-    print_distances(stream, level, *distances_anywhere, *request.options.max_error);
-  if (distance.maximum > far_off)
-    stream << "worst deviation " << percent(distance.maximum) << " of the size, "
-           << place_of(distance.farthest, prepared.soup) << '\n';
+  print_reduction(stream, request, prepared, level);
+  print_verdict(stream, prepared, level);
+  print_deviation(stream, request, prepared, level);
   if (const std::string sentence = coarse_part(request, prepared, result); !sentence.empty())
     stream << "parts: " << sentence << '\n';
   stream << (outcome.is_written() ? "written: " : "NOT written: ") << name_of(level) << std::endl;
   if (const std::string sentence = enlargement(request, level); !sentence.empty())
     stream << sentence << std::endl;
-}
-
-/// Counts what a file got otherwise, which begins with a noun in the plural.
-std::string counted_note(std::size_t count, const std::string& what)
-{
-  const std::string plural = what.substr(0, what.find(' '));
-  const std::string singular = plural == "meshes"     ? "mesh"
-                               : plural == "vertices" ? "vertex"
-                                                      : plural.substr(0, plural.size() - 1);
-  return counted(count, singular, plural) + what.substr(plural.size());
 }
 
 std::string enlargement(const Simplify_request& request, const Level& level)
@@ -730,7 +499,7 @@ std::string complaint(const Simplify_request& request, const Level& level, const
     return where + "the target of " + counted(result.report.faces_target, "face") +
            " was missed: " + with_commas(result.soup.triangles.size()) + " are left" +
            (result.report.hindrances.total() > 0
-                ? ", held back most by " + std::string(reasons(result.report.hindrances)[0].name)
+                ? ", held back most by " + most_frequent_reason(result.report.hindrances)
                 : "") +
            "; the result is written";
   return "";

@@ -27,7 +27,7 @@ struct Level
   std::string output;
   Simplified_soup result;
   Verification verification;
-  std::optional<Distances_anywhere> distances_anywhere = {}; ///< where the user has set a limit
+  std::optional<Distances_anywhere> distances_anywhere; ///< where the user has set a limit
   std::vector<std::size_t> guarded_poses; ///< numbers of the further poses in which collapses were judged
 
   /// Faces of more than three corners, in the input and in the file.
@@ -38,10 +38,10 @@ struct Level
 
   std::size_t number = 0; ///< among the levels in the file, from 1; 0 where it is alone there
 
-  std::optional<Error_search> error_search = {}; ///< where the limit is to be kept everywhere
-  Write_notes notes = {};                        ///< on the file, where it is alone there
-  std::uintmax_t bytes_more = 0;                 ///< than the input has, where this is of the same format
-  double seconds = 0;                            ///< of its reductions, also of those that this one replaces
+  std::optional<Error_search> error_search; ///< where the limit is to be kept everywhere
+  Write_notes notes;                        ///< on the file, where it is alone there
+  std::uintmax_t bytes_more = 0;            ///< than the input has, where this is of the same format
+  double seconds = 0;                       ///< of its reductions, also of those that this one replaces
 };
 
 /// Says in a sentence that the file is larger than the input, and why; empty where it is not.

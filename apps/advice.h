@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_ADVICE_H
+#define SELVEDGE_APPS_ADVICE_H
+
+#include "Simplify_request.h"
+
+#include <selvedge/Surface_mesh_simplification/Hindrances.h>
+#include <selvedge/simplify.h>
+#include <selvedge/verify.h>
+
+#include <string>
+
+// What the summary says of a target that was missed, or reached at a price, and which options help. All but
+// the first two begin with a line break, or are empty where there is nothing to say.
+
+namespace selvedge::app {
+
+/// Says what holds back a reduction that ended by itself, and what helps.
+std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
+                      const Simplify_report& report);
+
+/// Returns the name of the reason that holds most edges, of which there are some.
+std::string most_frequent_reason(const Hindrances& hindrances);
+
+/// Says, where a target is missed, which faces were kept for the shape; or that it was flattened, and what
+/// helps: many of the last faces are given for little. `distance` is that from the original.
+std::string what_shape_takes(const Simplify_request& request, const Simplify_report& report,
+                             const Distance& distance);
+
+/// Says how few faces a missed target leaves for each piece, if that is hardly enough for a shape. Islands of
+/// an atlas are pieces, and so are stitches, and none of them vanishes.
+std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplify_report& report);
+
+/// Says, where a target is reached, that most vertices left in `soup` lie on seams of the texture, and what
+/// helps: there the surface has given its vertices for the seams.
+std::string what_texture_takes(const Simplify_request& request, const Triangle_soup& soup);
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_ADVICE_H
