@@ -3,9 +3,10 @@
 
 #include <selvedge/part_report.h>
 
+#include "soup/Disjoint_sets.h"
+#include "soup/texture.h"
 #include "verify/Diagonal.h"
 
-#include "soup/texture.h"
 #include <selvedge/Cancellation_scope.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -59,22 +60,16 @@ bool has_texture(const Triangle_soup& soup, Index t)
 std::vector<Index> charts_of(const Triangle_soup& soup)
 {
   const std::vector<Index> pieces = part_kinds(soup).front().of_triangle;
-  std::vector<Index> parents(soup.uvs.values.size());
-  std::iota(parents.begin(), parents.end(), Index(0));
-  const auto root = [&](Index i) {
-    while (parents[i] != i)
-      i = parents[i] = parents[parents[i]];
-    return i;
-  };
+  internal::Disjoint_sets connected(soup.uvs.values.size());
   for (const auto& [a, b, c] : soup.uvs.of_triangle) {
-    parents[root(a)] = root(b);
-    parents[root(b)] = root(c);
+    connected.unite(a, b);
+    connected.unite(b, c);
   }
   std::unordered_map<std::uint64_t, Index> numbers;
   std::vector<Index> charts;
   charts.reserve(soup.triangles.size());
   for (Index t = 0; t < soup.triangles.size(); ++t) {
-    const std::uint64_t chart = std::uint64_t(pieces[t]) << 32 | root(soup.uvs.of_triangle[t][0]);
+    const std::uint64_t chart = std::uint64_t(pieces[t]) << 32 | connected.find(soup.uvs.of_triangle[t][0]);
     charts.push_back(numbers.emplace(chart, Index(numbers.size())).first->second);
   }
   return charts;

@@ -194,6 +194,42 @@ double share_of_cells(double share)
   return 0.95 * share;
 }
 
+/// Returns for every face whether its vertices move in no cell, because no cell sees all that it must know.
+/// Frozen faces stay anyway.
+std::vector<char> faces_that_stay(const Cell_context& whole)
+{
+  const Prepared_soup& prepared = whole.prepared;
+  const Working_mesh::Mesh& mesh = whole.working.mesh();
+  std::vector<char> stays(mesh.number_of_faces(), false);
+  // All faces with which a face offends, and all their descendants: only the reduction of the whole makes
+  // descendants. A double offends with its front alone, wherever the two go, or else its front offends as
+  // well.
+  for (const auto& [a, b] : whole.working.constraints().offending_pairs)
+    stays[a] = stays[b] = true;
+  // Whether all vertices at a position, which move together, are in the cell.
+  for (const auto& group : whole.working.constraints().joint_vertices)
+    for (const auto v : group)
+      for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
+        if (f != Working_mesh::Mesh::null_face())
+          stays[f] = true;
+  // Partners across a gap, which leave their borders together, and the limits of other vertices at gaps.
+  if (!prepared.tied.empty() || !prepared.facing.empty()) {
+    std::vector<char> is_at_gap(prepared.soup.points.size(), false); // by position
+    for (const auto& [a, b] : prepared.tied)
+      is_at_gap[a] = is_at_gap[b] = true;
+    for (const Index position : prepared.facing)
+      is_at_gap[position] = true;
+    for (const auto f : mesh.faces())
+      if (whole.working.is_own(f))
+        for (const Index v : prepared.soup.triangles[whole.working.triangle(f)])
+          stays[f] |= is_at_gap[prepared.positions[v]];
+  }
+  // The other places of a shared mesh.
+  for (const auto f : mesh.faces())
+    stays[f] |= whole.working.is_shared(f);
+  return stays;
+}
+
 struct Cell_run
 {
   std::vector<Cell_collapse> collapses;
@@ -325,37 +361,7 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   if (cells.size() < 2)
     return result;
   std::vector<Cell_run> runs(cells.size());
-  // No cell sees all faces with which a face offends, and all their descendants. So no vertex of an offending
-  // face moves in a cell: only the reduction of the whole makes descendants. A double offends with its front
-  // alone, wherever the two go, or else its front offends as well.
-  const Prepared_soup& prepared = whole.prepared;
-  const auto null_face = Working_mesh::Mesh::null_face();
-  const Working_mesh::Mesh& mesh = whole.working.mesh();
-  std::vector<char> stays(mesh.number_of_faces(), false);
-  for (const auto& [a, b] : whole.working.constraints().offending_pairs) // frozen faces stay anyway
-    stays[a] = stays[b] = true;
-  // So are vertices that move together, since a cell does not see whether all at a position are in it.
-  for (const auto& group : whole.working.constraints().joint_vertices)
-    for (const auto v : group)
-      for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
-        if (f != null_face)
-          stays[f] = true;
-  // Partners leave their borders together, and may lie in two cells. Other vertices at gaps have limits that
-  // cells do not know.
-  if (!prepared.tied.empty() || !prepared.facing.empty()) {
-    std::vector<char> is_at_gap(prepared.soup.points.size(), false); // by position
-    for (const auto& [a, b] : prepared.tied)
-      is_at_gap[a] = is_at_gap[b] = true;
-    for (const Index position : prepared.facing)
-      is_at_gap[position] = true;
-    for (const auto f : mesh.faces())
-      if (whole.working.is_own(f))
-        for (const Index v : prepared.soup.triangles[whole.working.triangle(f)])
-          stays[f] |= is_at_gap[prepared.positions[v]];
-  }
-  // The places of a shared mesh lie in several cells.
-  for (const auto f : mesh.faces())
-    stays[f] |= whole.working.is_shared(f);
+  const std::vector<char> stays = faces_that_stay(whole);
   const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());

@@ -42,7 +42,7 @@ public:
         m_working(prepared.soup, prepared.positions, m_is_frozen, prepared.obstacle, prepared.scale,
                   prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
-        m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
+        m_simplification(m_working.mesh(), m_options, set_up(intent), m_working)
   {
   }
 
@@ -104,9 +104,10 @@ private:
     return is_frozen;
   }
 
-  const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
-                                                              const Simplify_intent& intent)
+  // Tells the working mesh what to hold, to measure and to record, and returns its constraints.
+  const Simplify_constraints<Working_mesh::Mesh>& set_up(const Simplify_intent& intent)
   {
+    const Triangle_soup& soup = m_prepared.soup;
     auto& constraints = m_working.constraints();
     m_working.lock_by_wish(intent.locked_vertices, m_prepared.positions);
     const auto faces_named = [&](const std::string& name) {
