@@ -326,7 +326,7 @@ bool may_part(const Triangle_soup& soup, Index a, Index b)
            column.row(soup.scene_vertices[b] - instance.first);
   };
   const auto is_of_skin = [](const Gltf_scene::Column& column) {
-    return column.name.rfind("JOINTS_", 0) == 0 || column.name.rfind("WEIGHTS_", 0) == 0;
+    return begins_with(column.name, "JOINTS_") || begins_with(column.name, "WEIGHTS_");
   };
   for (const Gltf_scene::Column& column : block.attributes)
     if (is_of_skin(column) && differ(column))

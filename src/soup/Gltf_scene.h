@@ -215,7 +215,7 @@ void append_little_endian(std::string& rows, Number number)
 /// What a vertex has in a row of its block, apart from its normal, as bytes.
 struct Row_bytes
 {
-  std::string others;  ///< everything that follows is no part of
+  std::string others;  ///< all but what the members below hold
   std::string side;    ///< of its tangent: the sign that says whether the texture is mirrored
   std::string tangent; ///< the direction of its tangent
   std::string targets; ///< what morph targets add to its normal and its tangent

@@ -81,15 +81,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
     }
   }
   const Index own_corners = Index(3 * own_face_count());
-  std::vector<char> is_used(soup.points.size(), false);
-  for (const Index_triple& corners_of_triangle : soup.triangles)
-    for (const Index i : corners_of_triangle)
-      is_used[i] = true;
-  for (Index v = 0; v < is_used.size(); ++v) {
-    m_notes.unused_vertices += !is_used[v];
-    m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
-  }
-
+  note_vertices(positions);
   const Index corner_count = Index(3 * triangles.size());
   const auto own_corner = [&](Index corner) { return corners(Face(corner / 3))[corner % 3]; };
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
@@ -131,33 +123,9 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   for (Index v = 0; v < is_locked.size(); ++v)
     is_locked[v] |= is_in_frozen_face[v];
   lock(is_locked);
-  m_is_misoriented.assign(soup.points.size(), false);
-  for (const Index side : sewing.misoriented_sides()) {
-    if (side >= own_corners)
-      continue;
-    m_misoriented_sides.push_back(3 * triangle(Face(side / 3)) + side % 3);
-    for (const Corner end : {side, Sewing::next(side)})
-      m_is_misoriented[vertex_of(own_corner(end))] = true;
-  }
-  if (!m_misoriented_sides.empty()) {
-    const std::vector<Index> piece_of = part_kinds(soup).front().of_triangle;
-    std::set<Index> pieces;
-    for (const Index side : m_misoriented_sides)
-      pieces.insert(piece_of[side / 3]);
-    m_notes.misoriented_pieces = pieces.size();
-  }
-
+  find_misoriented(sewing);
   Cancellation_scope::check();
-  find_regions();
-  std::vector<char> is_line(mesh().number_of_edges(), false);
-  tbb::parallel_for(Index(0), Index(is_line.size()), [&](Index number) {
-    const Mesh::Edge_index e(number);
-    is_line[number] = !mesh().is_border(e) && is_own(mesh().face(mesh().halfedge(e))) && differences(e).any();
-  });
-  for (Index side = 0; side < own_corners; ++side)
-    if (const auto e = mesh().edge(halfedges[side]); side < sewing.mate(side) && is_line[e])
-      m_constraints.line_edges.push_back(e);
-  m_notes.seam_edges = m_constraints.line_edges.size();
+  find_lines(sewing, halfedges);
   find_spokes(position_of);
   find_no_strip_vertices(position_of);
 
@@ -227,6 +195,52 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
   if (!whole.m_constraints.vertex_weights.empty())
     for (const Mesh::Vertex_index v : vertices)
       m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
+}
+
+void Sewn_mesh::note_vertices(const std::vector<Index>& positions)
+{
+  std::vector<char> is_used(soup().points.size(), false);
+  for (const Index_triple& corners_of_triangle : soup().triangles)
+    for (const Index i : corners_of_triangle)
+      is_used[i] = true;
+  for (Index v = 0; v < is_used.size(); ++v) {
+    m_notes.unused_vertices += !is_used[v];
+    m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
+  }
+}
+
+void Sewn_mesh::find_misoriented(const Sewing& sewing)
+{
+  m_is_misoriented.assign(soup().points.size(), false);
+  for (const Index side : sewing.misoriented_sides()) {
+    if (side / 3 >= own_face_count())
+      continue;
+    m_misoriented_sides.push_back(3 * triangle(Face(side / 3)) + side % 3);
+    for (const Corner end : {side, Sewing::next(side)})
+      m_is_misoriented[vertex_of(corners(Face(end / 3))[end % 3])] = true;
+  }
+  if (!m_misoriented_sides.empty()) {
+    const std::vector<Index> piece_of = part_kinds(soup()).front().of_triangle;
+    std::set<Index> pieces;
+    for (const Index side : m_misoriented_sides)
+      pieces.insert(piece_of[side / 3]);
+    m_notes.misoriented_pieces = pieces.size();
+  }
+}
+
+// Makes lines of the edges across which corners differ. `halfedges` are those of the sides.
+void Sewn_mesh::find_lines(const Sewing& sewing, const std::vector<Halfedge>& halfedges)
+{
+  find_regions();
+  std::vector<char> is_line(mesh().number_of_edges(), false);
+  tbb::parallel_for(Index(0), Index(is_line.size()), [&](Index number) {
+    const Mesh::Edge_index e(number);
+    is_line[number] = !mesh().is_border(e) && is_own(mesh().face(mesh().halfedge(e))) && differences(e).any();
+  });
+  for (Index side = 0; side < 3 * own_face_count(); ++side)
+    if (const auto e = mesh().edge(halfedges[side]); side < sewing.mate(side) && is_line[e])
+      m_constraints.line_edges.push_back(e);
+  m_notes.seam_edges = m_constraints.line_edges.size();
 }
 
 // Takes the spokes out of the lines: those at a pole, where at least three edges differ at one end only, and

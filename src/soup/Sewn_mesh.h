@@ -110,7 +110,10 @@ protected:
   void set_held_elsewhere(std::vector<char> vertices) { m_is_held_elsewhere = std::move(vertices); }
 
 private:
+  void note_vertices(const std::vector<Index>& positions);
   void lock(const std::vector<char>& is_locked);
+  void find_misoriented(const Sewing& sewing);
+  void find_lines(const Sewing& sewing, const std::vector<Halfedge>& halfedges);
   template <class Function>
   void find_spokes(const Function& position_of);
   template <class Function>
