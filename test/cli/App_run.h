@@ -26,12 +26,6 @@
 
 namespace selvedge::test {
 
-inline std::string contents_of(const std::filesystem::path& path)
-{
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 inline void write_text(const std::filesystem::path& path, const std::string& text)
 {
   std::ofstream(path, std::ios::binary) << text;

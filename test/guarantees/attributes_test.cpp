@@ -19,8 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <random>
 #include <set>
@@ -28,6 +26,7 @@
 #include <tuple>
 
 using namespace selvedge;
+using selvedge::test::contents_of;
 using selvedge::test::Temporary_folder;
 using Names = std::vector<std::string>;
 using Type = Attribute::Type;
@@ -35,12 +34,6 @@ using Type = Attribute::Type;
 namespace {
 
 constexpr unsigned seed = 20261121;
-
-std::string contents_of(const std::filesystem::path& path)
-{
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::string written(const Triangle_soup& soup, const std::string& file, Encoding encoding = Encoding::ascii)
 {

@@ -53,10 +53,7 @@ Clearance_verdict judged(const Triangle_soup& result, const Triangle_soup& origi
 TEST(Clearance_of_pieces, IsKeptByEveryMeans)
 {
   const Triangle_soup soup = wavy_layers(1200);
-  std::vector<Simplify_options> all(4, without_limits(to_ratio(0.2)));
-  all[1].placement = Placement::optimal;
-  all[2].loop = Collapse_loop::cgal;
-  all[3].index = Face_index::clusters;
+  const std::vector<Simplify_options> all = every_means(without_limits(to_ratio(0.2)));
   for (const Simplify_options& options : all)
     for (const double distance : {0.9 * layer_gap, 2 * layer_gap}) {
       SCOPED_TRACE(testing::Message() << "means " << &options - all.data() << ", distance " << distance);

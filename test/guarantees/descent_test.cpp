@@ -69,11 +69,7 @@ TEST(Descent, ReachesWhatFreezingDoesNot)
 TEST(Descent, HoldsWithEveryMeans)
 {
   const Triangle_soup soup = sheets_through_each_other(1500);
-  std::vector<Simplify_options> all(5, without_limits(to_ratio(0.05)));
-  all[1].placement = Placement::optimal;
-  all[2].loop = Collapse_loop::cgal;
-  all[3].index = Face_index::clusters;
-  all[4].faces_per_cell = 300;
+  const std::vector<Simplify_options> all = every_means(without_limits(to_ratio(0.05)), 300);
   for (const Simplify_options& options : all) {
     SCOPED_TRACE(&options - all.data());
     const Prepared_soup prepared = prepare(soup, with(Defects::descend));
@@ -146,10 +142,7 @@ TEST(Descent, LetsDegenerateFacesGo)
   ASSERT_EQ(std::count_if(pairs.begin(), pairs.end(),
                           [](const Offending_pair& pair) { return pair.first == pair.second; }),
             32);
-  std::vector<Simplify_options> all(4, without_limits(to_ratio(0.05)));
-  all[1].placement = Placement::optimal;
-  all[2].loop = Collapse_loop::cgal;
-  all[3].faces_per_cell = 50;
+  const std::vector<Simplify_options> all = every_means(without_limits(to_ratio(0.05)), 50);
   for (const Simplify_options& options : all) {
     SCOPED_TRACE(&options - all.data());
     const Logged_reduction reduction = reduce_and_log(soup, options, with(Defects::descend));

@@ -134,11 +134,7 @@ TEST(Doubles, OfAPartStayWhereTheyAre)
 TEST(Doubles, AreAcceptedByTheReplayWithEveryMeans)
 {
   const Triangle_soup soup = double_sided(wavy_sheet(), Vertices::own, 900);
-  std::vector<Simplify_options> all(5, without_limits(to_ratio(0.1)));
-  all[1].placement = Placement::optimal;
-  all[2].loop = Collapse_loop::cgal;
-  all[3].index = Face_index::clusters;
-  all[4].faces_per_cell = 300;
+  const std::vector<Simplify_options> all = every_means(without_limits(to_ratio(0.1)), 300);
   for (const Simplify_options& options : all) {
     SCOPED_TRACE(&options - all.data());
     const Logged_reduction reduction = reduce_and_log(soup, options);

@@ -63,10 +63,7 @@ std::string without_line(std::string log, const std::string& start)
 
 TEST(May_intersect, TheTwoPartsAloneDo)
 {
-  std::vector<Simplify_options> all(4, without_limits(to_ratio(0.1)));
-  all[1].placement = Placement::optimal;
-  all[2].loop = Collapse_loop::cgal;
-  all[3].index = Face_index::clusters;
+  const std::vector<Simplify_options> all = every_means(without_limits(to_ratio(0.1)));
   for (const bool is_crossed : {false, true}) {
     const Triangle_soup soup = layered(2400, is_crossed);
     const std::size_t skin_before = pairs_between(soup, s_skin, s_belt),

@@ -5,12 +5,20 @@
 #define SELVEDGE_TEST_SUPPORT_TEMPORARY_FOLDER_H
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include <stdlib.h>
 
 namespace selvedge::test {
+
+inline std::string contents_of(const std::filesystem::path& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 /// A new folder that is gone, with all that is in it, at the end of the scope.
 class Temporary_folder

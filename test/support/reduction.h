@@ -7,7 +7,9 @@
 #include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace selvedge::test {
 
@@ -33,6 +35,19 @@ inline Simplify_options without_limits(Simplify_options options)
   options.max_seam_turn = 180;
   options.max_border_drift = 10;
   return options;
+}
+
+/// Returns options for every means that gives the same guarantees: another placement, loop and index, and
+/// cells of so many faces unless they are 0. The first are `options` themselves.
+inline std::vector<Simplify_options> every_means(const Simplify_options& options,
+                                                 std::size_t faces_per_cell = 0)
+{
+  std::vector<Simplify_options> all(faces_per_cell > 0 ? 5 : 4, options);
+  all[1].placement = Placement::optimal;
+  all[2].loop = Collapse_loop::cgal;
+  all[3].index = Face_index::clusters;
+  all.back().faces_per_cell = faces_per_cell;
+  return all;
 }
 
 inline Prepare_options with(Defects defects)

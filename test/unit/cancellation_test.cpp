@@ -70,12 +70,6 @@ struct Phase
   std::function<void()> call;
 };
 
-std::string contents_of(const std::filesystem::path& path)
-{
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 class Scene
 {
 public:

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <iterator>
 #include <string>
 
@@ -22,17 +21,12 @@
 #include <unistd.h>
 
 using namespace selvedge;
+using selvedge::test::contents_of;
 using selvedge::test::Temporary_folder;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& path)
-{
-  std::ifstream stream(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
 
 std::size_t files_in(const fs::path& folder)
 {
