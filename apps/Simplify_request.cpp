@@ -374,7 +374,7 @@ Json options_json(const Simplify_request& request)
           {"drop_smaller", request.dropped_parts.smaller_than},
           {"drop_attribute", request.dropped_attributes},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
-{"polygons", request.are_polygons_split.value_or(false) ? "split" : "keep"},
+          {"polygons", request.are_polygons_split.value_or(false) ? "split" : "keep"},
           {"threads", or_null(request.threads)},
           {"cells", request.is_in_cells},
           {"defects", name_of(defects_of(request))},

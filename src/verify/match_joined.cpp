@@ -162,24 +162,23 @@ bool are_near(const Matching& matching, const std::vector<Index>& of_original,
   return true;
 }
 
-} // namespace
-
-void match_joined(Matching& matching, bool is_by_distance)
+// What the triangles of the result tell of the pieces of the original that they come from.
+struct Ownership
 {
-  if (matching.is_complete() || matching.is_one_empty())
-    return;
-  const Lists& reach = matching.reach();
-  const std::size_t results = matching.result.pieces().size(), originals = matching.original.pieces().size();
-  Disjoint_sets sets(results + originals);
-  const auto unite = [&](Index r, Index o) { sets.unite(r, results + o); };
-  for (const Piece_match& match : matching.found.matches)
-    for (const Index r : match.of_result)
-      for (const Index o : match.of_original)
-        unite(r, o);
+  Ownership(std::size_t results, std::size_t originals)
+      : is_broken(results), owns_nothing(results, true), is_owner(originals), is_touched(originals)
+  {
+  }
 
-  std::vector<bool> is_broken(results), is_owner(originals), is_touched(originals),
-      owns_nothing(results, true);
+  std::vector<bool> is_broken, owns_nothing; // by piece of the result
+  std::vector<bool> is_owner, is_touched;    // by piece of the original
   std::vector<Pair> owned, perhaps_owned;
+};
+
+Ownership find_owners(Matching& matching, bool is_by_distance)
+{
+  const Lists& reach = matching.reach();
+  Ownership result(matching.result.pieces().size(), matching.original.pieces().size());
   std::optional<Nearest_pieces> nearest;
   const auto position = [&](Index t, int place) {
     return is_by_distance ? matching.positions_nearby()[matching.result.soup.triangles[t][place]]
@@ -187,7 +186,6 @@ void match_joined(Matching& matching, bool is_by_distance)
   };
   const Index *const before_at = matching.original.positions, *const now_at = matching.result.positions;
   const Triangles_by_place before(matching.original, before_at), now(matching.result, now_at);
-  std::optional<Joined_borders> joined_borders;
   Cancellation_poll poll;
   for (Index t = 0; t < matching.result.soup.triangles.size(); ++t) {
     poll();
@@ -201,17 +199,17 @@ void match_joined(Matching& matching, bool is_by_distance)
       found = {true, {nearest->piece_near(centre(matching.result.soup, t, matching.exponent))}};
     }
     if (found.is_broken()) {
-      is_broken[r] = true;
+      result.is_broken[r] = true;
       for (int place = 0; place < 3; ++place)
         if (const auto here = reach[position(t, place)]; here.size() == 1) {
-          owned.emplace_back(r, *here.begin());
-          is_touched[*here.begin()] = true;
+          result.owned.emplace_back(r, *here.begin());
+          result.is_touched[*here.begin()] = true;
         }
     }
     const auto own = [&](Index o) {
-      owned.emplace_back(r, o);
-      is_owner[o] = true;
-      owns_nothing[r] = false;
+      result.owned.emplace_back(r, o);
+      result.is_owner[o] = true;
+      result.owns_nothing[r] = false;
     };
     if (found.is_one()) {
       own(found.pieces.front());
@@ -227,80 +225,117 @@ void match_joined(Matching& matching, bool is_by_distance)
         own(o);
     for (const Index o : found.pieces)
       if (matching.is_left_of_original(o))
-        perhaps_owned.emplace_back(r, o);
+        result.perhaps_owned.emplace_back(r, o);
   }
-  const auto sort = [](std::vector<Pair>& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  };
-  sort(owned);
-  for (const auto& [r, o] : owned)
+  for (std::vector<Pair>* pairs : {&result.owned, &result.perhaps_owned}) {
+    std::sort(pairs->begin(), pairs->end());
+    pairs->erase(std::unique(pairs->begin(), pairs->end()), pairs->end());
+  }
+  return result;
+}
+
+// Pieces of both meshes that belong together.
+struct Group
+{
+  std::vector<Index> of_original, of_result;
+};
+
+// Returns all pieces in groups. Notes further owners.
+std::vector<Group> grouped(const Matching& matching, Ownership& owners)
+{
+  const std::size_t results = matching.result.pieces().size(), originals = matching.original.pieces().size();
+  Disjoint_sets sets(results + originals);
+  const auto unite = [&](Index r, Index o) { sets.unite(r, results + o); };
+  for (const Piece_match& match : matching.found.matches)
+    for (const Index r : match.of_result)
+      for (const Index o : match.of_original)
+        unite(r, o);
+  for (const auto& [r, o] : owners.owned)
     if (matching.is_left_of_result(r) || matching.is_left_of_original(o))
       unite(r, o);
   for (const Possible_match& possible : matching.near)
-    if (matching.is_left_of_result(possible.of_result) && owns_nothing[possible.of_result]) {
+    if (matching.is_left_of_result(possible.of_result) && owners.owns_nothing[possible.of_result]) {
       unite(possible.of_result, possible.of_original);
-      is_owner[possible.of_original] = true;
+      owners.is_owner[possible.of_original] = true;
     }
-  sort(perhaps_owned);
-  for (const auto& [r, o] : perhaps_owned)
-    if (!is_owner[o] && sets.find(r) != sets.find(results + o))
+  for (const auto& [r, o] : owners.perhaps_owned)
+    if (!owners.is_owner[o] && sets.find(r) != sets.find(results + o))
       unite(r, o);
 
-  std::map<std::size_t, std::pair<std::vector<Index>, std::vector<Index>>> groups; // of original, of result
+  std::map<std::size_t, Group> groups; // by set
   for (Index o = 0; o < originals; ++o)
-    groups[sets.find(results + o)].first.push_back(o);
+    groups[sets.find(results + o)].of_original.push_back(o);
   for (Index r = 0; r < results; ++r)
-    groups[sets.find(r)].second.push_back(r);
-  for (auto& [set, group] : groups) {
-    auto& [of_original, of_result] = group;
-    const auto is_left = [&](Index o) { return matching.is_left_of_original(o); };
-    const auto is_left_now = [&](Index r) { return matching.is_left_of_result(r); };
-    if (of_original.empty() || of_result.empty() ||
-        (std::none_of(of_original.begin(), of_original.end(), is_left) &&
-         std::none_of(of_result.begin(), of_result.end(), is_left_now)))
-      continue;
-    std::vector<Index> unseen;
-    std::copy_if(of_original.begin(), of_original.end(), std::back_inserter(unseen),
-                 [&](Index o) { return !is_owner[o] && is_left(o); });
-    const bool has_broken =
-        std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return is_broken[r]; });
-    const std::vector<Index> triangles_before = matching.original.triangles_of(of_original),
-                             triangles_now = matching.result.triangles_of(of_result);
-    const bool is_told =
-        !is_by_distance &&
-        (std::any_of(of_original.begin(), of_original.end(),
-                     [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
-         std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
-    const auto show_where_borders_are_joined = [&](const std::vector<Index>& some) {
-      if (has_broken || is_by_distance || matching.options.weld_distance <= 0)
-        return false;
-      if (!some.empty() && !joined_borders)
-        joined_borders.emplace(matching);
-      return some.empty() || joined_borders->show(some, of_original, triangles_now);
-    };
-    if (matching.original.kinds_by_position(triangles_before) ==
-            matching.result.kinds_by_position(triangles_now) &&
-        (!is_by_distance || are_near(matching, of_original, triangles_now)) &&
-        unseen.size() < of_original.size()) {
-      std::vector<Index> hidden =
-          perhaps_missing(matching, unseen, of_original, {before_at, matching.original_at});
-      if (const Pieces_in_file* in_file = hidden.empty() ? nullptr : matching.pieces_in_file();
-          in_file && in_file->have(hidden, of_original, of_result, matching.original_at))
-        hidden.clear();
-      if (!hidden.empty() && show_where_borders_are_joined(hidden))
-        hidden.clear();
-      std::vector<Index> seen;
-      std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
-                          std::back_inserter(seen));
-      for (const Index o : hidden)
-        matching.is_hidden[o] = true;
-      matching.match(std::move(seen), std::move(of_result), Matched_by::positions);
-    } else if (show_where_borders_are_joined(unseen))
-      matching.match(std::move(of_original), std::move(of_result), Matched_by::borders);
-    else if (is_told)
-      matching.groups.push_back({std::move(of_original), std::move(of_result), has_broken});
-  }
+    groups[sets.find(r)].of_result.push_back(r);
+  std::vector<Group> result;
+  for (auto& [set, group] : groups)
+    result.push_back(std::move(group));
+  return result;
+}
+
+// `joined_borders` is made when it is asked for the first time.
+void match_group(Matching& matching, const Ownership& owners, Group group, bool is_by_distance,
+                 std::optional<Joined_borders>& joined_borders)
+{
+  auto& [of_original, of_result] = group;
+  const auto is_left = [&](Index o) { return matching.is_left_of_original(o); };
+  const auto is_left_now = [&](Index r) { return matching.is_left_of_result(r); };
+  if (of_original.empty() || of_result.empty() ||
+      (std::none_of(of_original.begin(), of_original.end(), is_left) &&
+       std::none_of(of_result.begin(), of_result.end(), is_left_now)))
+    return;
+  std::vector<Index> unseen;
+  std::copy_if(of_original.begin(), of_original.end(), std::back_inserter(unseen),
+               [&](Index o) { return !owners.is_owner[o] && is_left(o); });
+  const bool has_broken =
+      std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return owners.is_broken[r]; });
+  const std::vector<Index> triangles_before = matching.original.triangles_of(of_original),
+                           triangles_now = matching.result.triangles_of(of_result);
+  const bool is_told =
+      !is_by_distance &&
+      (std::any_of(of_original.begin(), of_original.end(),
+                   [&](Index o) { return (owners.is_owner[o] || owners.is_touched[o]) && is_left(o); }) ||
+       std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
+  const auto show_where_borders_are_joined = [&](const std::vector<Index>& some) {
+    if (has_broken || is_by_distance || matching.options.weld_distance <= 0)
+      return false;
+    if (!some.empty() && !joined_borders)
+      joined_borders.emplace(matching);
+    return some.empty() || joined_borders->show(some, of_original, triangles_now);
+  };
+  if (matching.original.kinds_by_position(triangles_before) ==
+          matching.result.kinds_by_position(triangles_now) &&
+      (!is_by_distance || are_near(matching, of_original, triangles_now)) &&
+      unseen.size() < of_original.size()) {
+    std::vector<Index> hidden =
+        perhaps_missing(matching, unseen, of_original, {matching.original.positions, matching.original_at});
+    if (const Pieces_in_file* in_file = hidden.empty() ? nullptr : matching.pieces_in_file();
+        in_file && in_file->have(hidden, of_original, of_result, matching.original_at))
+      hidden.clear();
+    if (!hidden.empty() && show_where_borders_are_joined(hidden))
+      hidden.clear();
+    std::vector<Index> seen;
+    std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
+                        std::back_inserter(seen));
+    for (const Index o : hidden)
+      matching.is_hidden[o] = true;
+    matching.match(std::move(seen), std::move(of_result), Matched_by::positions);
+  } else if (show_where_borders_are_joined(unseen))
+    matching.match(std::move(of_original), std::move(of_result), Matched_by::borders);
+  else if (is_told)
+    matching.groups.push_back({std::move(of_original), std::move(of_result), has_broken});
+}
+
+} // namespace
+
+void match_joined(Matching& matching, bool is_by_distance)
+{
+  if (matching.is_complete() || matching.is_one_empty())
+    return;
+  Ownership owners = find_owners(matching, is_by_distance);
+  std::optional<Joined_borders> joined_borders;
+  for (Group& group : grouped(matching, owners))
+    match_group(matching, owners, std::move(group), is_by_distance, joined_borders);
 }
 
 } // namespace selvedge::internal
