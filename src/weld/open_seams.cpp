@@ -3,6 +3,7 @@
 
 #include "open_seams.h"
 
+#include "soup/Disjoint_sets.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
@@ -231,24 +232,17 @@ private:
   Pieces find_pieces() const
   {
     Pieces pieces{std::vector<Index>(m_points.size()), std::vector<std::array<Index, 2>>(m_points.size())};
-    std::vector<Index>& number = pieces.number;
-    std::iota(number.begin(), number.end(), Index(0));
-    const auto root = [&](Index position) {
-      while (number[position] != position)
-        position = number[position] = number[number[position]];
-      return position;
-    };
+    internal::Disjoint_sets connected(m_points.size());
     Cancellation_poll poll;
     for (std::size_t face = 0; face < m_own_triangles; ++face)
       for (const std::size_t k : {1, 2}) {
         poll();
-        const Index a = root(m_triangles[face][0]), b = root(m_triangles[face][k]);
-        number[(std::max)(a, b)] = (std::min)(a, b);
+        connected.unite(m_triangles[face][0], m_triangles[face][k]);
       }
-    for (Index position = 0; position < number.size(); ++position) {
-      number[position] = root(position);
+    for (Index position = 0; position < m_points.size(); ++position) {
+      pieces.number[position] = Index(connected.find(position));
       const Index site = m_site_at[position];
-      ++pieces.counts[number[position]][site != s_no_place && !m_sites[site].next.empty()];
+      ++pieces.counts[pieces.number[position]][site != s_no_place && !m_sites[site].next.empty()];
     }
     return pieces;
   }
