@@ -6,6 +6,7 @@
 #include "soup/Gltf_scene.h"
 #include "soup/Sewn_mesh.h"
 #include "soup/flat_shading.h"
+#include "soup/number_positions.h"
 #include "surface_distances.h"
 #include "verify/Diagonal.h"
 #include "verify/pieces.h"
@@ -134,10 +135,7 @@ private:
   {
     const auto by_vertices = internal::numbered_pieces(m_soup.triangles, m_soup.points.size());
     m_result.pieces = by_vertices.pieces;
-    std::vector<Index_triple> triangles = m_soup.triangles; // of positions
-    for (Index_triple& triangle : triangles)
-      for (Index& v : triangle)
-        v = m_prepared.positions[v];
+    const std::vector<Index_triple> triangles = in_positions(m_soup.triangles, m_prepared.positions);
     const auto by_positions = internal::numbered_pieces(triangles, m_soup.points.size());
     for (const Piece& shape : by_positions.pieces) {
       m_result.surfaces.push_back({shape, 0, {}, 0});

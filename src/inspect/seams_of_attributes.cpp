@@ -8,6 +8,7 @@
 #include "soup/Corner_mesh.h"
 #include "soup/Gltf_scene.h"
 #include "soup/inner_edges.h"
+#include "soup/number_positions.h"
 #include "soup/selection.h"
 
 #include <algorithm>
@@ -107,10 +108,10 @@ std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prep
   for (Index t = 0; t < soup.triangles.size(); ++t) {
     if (!prepared.fronts.empty() && prepared.fronts[t] != t)
       continue;
-    const auto& [a, b, c] = soup.triangles[t];
     fronts.push_back(t);
-    triangles.push_back({prepared.positions[a], prepared.positions[b], prepared.positions[c]});
+    triangles.push_back(soup.triangles[t]);
   }
+  triangles = in_positions(std::move(triangles), prepared.positions);
   std::vector<const Attribute*> of_regions;
   for (const Attribute& attribute : soup.triangle_attributes)
     if (tells_regions_apart(attribute, fronts, triangles))

@@ -446,10 +446,8 @@ private:
   // Unites the corners of a wedge at which triangles meet that turn little from one to the next.
   internal::Disjoint_sets smooth_parts() const
   {
-    const std::vector<Index> positions = number_positions(m_result.points);
-    std::vector<Index_triple> triples;
-    for (const auto& [a, b, c] : m_result.triangles)
-      triples.push_back({positions[a], positions[b], positions[c]});
+    const std::vector<Index_triple> triples =
+        in_positions(m_result.triangles, number_positions(m_result.points));
     internal::Disjoint_sets parts(3 * triples.size());
     internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
       const Index i = a.at_low / 3, j = b.at_low / 3;

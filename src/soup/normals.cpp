@@ -18,11 +18,10 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
-// Recognises how the normals of corners were made, and makes or mends those of a result.
+// Recognises how the normals of corners were made, and makes those of a result.
 
 namespace selvedge {
 namespace {
@@ -35,17 +34,18 @@ using shading::add;
 using shading::angle_at;
 using shading::cosines;
 using shading::difference;
+using shading::is_within;
 using shading::normal_at;
 using shading::s_cosine_of_shading;
+using shading::s_cosine_smooth;
 using shading::side_of;
 using shading::stored;
 using shading::unit;
 using shading::unit_normal;
 using shading::Vector;
 
-// Cosines of 0.1°, 1°, 15° and 60°.
+// Cosines of 0.1°, 15° and 60°.
 constexpr double s_cosine_flat = 0.9999984769;
-constexpr double s_cosine_smooth = 0.9998476952;
 constexpr double s_cosine_of_face = 0.9659258263;
 constexpr double s_cosine_of_polygon = 0.5;
 
@@ -78,11 +78,6 @@ Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangle
       sum[i] += area[i];
   }
   return unit(sum);
-}
-
-bool is_within(const Vector& a, const Vector& b, double cosine)
-{
-  return dot(unit(a), unit(b)) >= cosine;
 }
 
 // Gives the corners between two hard edges at a vertex the value of the first of them.
@@ -363,89 +358,6 @@ void join_near_normals(Triangle_soup& soup)
       }
       normal = entries[found].normal;
     }
-}
-
-std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
-                         const Triangle_soup& original, const Corner_values<3>& normals)
-{
-  if (result.normals.empty())
-    return 0;
-  const auto is_as_before = [&](Index t) {
-    const Index_triple &now = result.triangles[t], &before = original.triangles[triangles[t]];
-    return result.points[now[0]] == original.points[before[0]] &&
-           result.points[now[1]] == original.points[before[1]] &&
-           result.points[now[2]] == original.points[before[2]];
-  };
-  std::vector<Vector> fronts(result.triangles.size()); // of length 1, on the side where the normals point to
-  std::vector<char> is_wrong(3 * result.triangles.size(), false), is_free = is_wrong; // by corner
-  for (Index t = 0; t < result.triangles.size(); ++t) {
-    if (result.normals.of_triangle[t][0] == result.normals.missing)
-      continue;
-    const Vector front = unit_normal(result, t);
-    const std::array<double, 3> now = cosines(front, result.normals, t);
-    const std::array<double, 3> before = cosines(unit_normal(original, triangles[t]), normals, triangles[t]);
-    const int side = side_of(before);
-    const double limit =
-        std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]});
-    add(fronts[t], front, side);
-    const bool is_changed = !is_as_before(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      is_wrong[3 * t + k] = side != 0 && side * now[k] < limit;
-      is_free[3 * t + k] = is_wrong[3 * t + k] || is_changed;
-    }
-  }
-  if (std::find(is_wrong.begin(), is_wrong.end(), true) == is_wrong.end())
-    return 0;
-
-  // Seams of the texture are no hard edges: triangles meet where they have positions in common.
-  const std::vector<Index> positions = number_positions(result.points);
-  std::vector<Index_triple> triples;
-  for (const auto& [a, b, c] : result.triangles)
-    triples.push_back({positions[a], positions[b], positions[c]});
-  internal::Disjoint_sets fans(is_wrong.size()); // of corners
-  for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
-    if (dot(fronts[a.at_low / 3], fronts[b.at_low / 3]) < s_cosine_of_shading)
-      return;
-    for (const auto& [of_a, of_b] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)})
-      if (is_free[of_a] && is_free[of_b] &&
-          ((is_wrong[of_a] && is_wrong[of_b]) ||
-           is_within(normal_at(result.normals, of_a / 3, of_a % 3),
-                     normal_at(result.normals, of_b / 3, of_b % 3), s_cosine_smooth)))
-        fans.unite(of_a, of_b);
-  });
-  std::vector<char> is_renewed(is_wrong.size(), false); // by fan
-  for (Index corner = 0; corner < is_wrong.size(); ++corner)
-    if (is_wrong[corner])
-      is_renewed[fans.find(corner)] = true;
-  std::vector<Vector> sums(is_wrong.size()); // by fan
-  std::size_t mended = 0;
-  for (Index corner = 0; corner < is_wrong.size(); ++corner)
-    if (const std::size_t fan = fans.find(corner); is_renewed[fan]) {
-      add(sums[fan], fronts[corner / 3], angle_at(result, corner));
-      ++mended;
-    }
-  std::vector<Index> numbers(is_wrong.size(), s_no_normal); // of the means, by fan
-  const auto new_number = [&](const Vector& normal) {
-    result.normals.values.push_back(normal);
-    return Index(result.normals.values.size() - 1);
-  };
-  for (Index corner = 0; corner < is_wrong.size(); ++corner) {
-    const std::size_t fan = fans.find(corner);
-    if (!is_renewed[fan])
-      continue;
-    Index& number = result.normals.of_triangle[corner / 3][corner % 3];
-    const Vector &front = fronts[corner / 3], mean = stored(unit(sums[fan]));
-    if (dot(mean, front) < s_cosine_of_shading) {
-      number = new_number(stored(front));
-      continue;
-    }
-    if (numbers[fan] == s_no_normal)
-      numbers[fan] = new_number(mean);
-    number = numbers[fan];
-  }
-  result.normals =
-      with_used(result.normals.values, std::move(result.normals.of_triangle), result.normals.missing);
-  return mended;
 }
 
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,

@@ -32,4 +32,13 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
   return numbers;
 }
 
+std::vector<Index_triple> in_positions(std::vector<Index_triple> triangles,
+                                       const std::vector<Index>& positions)
+{
+  for (Index_triple& triangle : triangles)
+    for (Index& v : triangle)
+      v = positions[v];
+  return triangles;
+}
+
 } // namespace selvedge

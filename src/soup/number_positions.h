@@ -14,6 +14,10 @@ namespace selvedge {
 /// its position.
 std::vector<Index> number_positions(const std::vector<Point_3>& points);
 
+/// Returns triangles with the position of each corner in place of its vertex.
+std::vector<Index_triple> in_positions(std::vector<Index_triple> triangles,
+                                       const std::vector<Index>& positions);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_NUMBER_POSITIONS_H

@@ -39,14 +39,10 @@ void smooth_normals(Triangle_soup& soup)
 {
   using shading::Vector;
   // Seams of the texture are no hard edges: triangles meet where they have positions in common.
-  const std::vector<Index> positions = number_positions(soup.points);
-  std::vector<Index_triple> triples;
+  const std::vector<Index_triple> triples = in_positions(soup.triangles, number_positions(soup.points));
   std::vector<Vector> fronts;
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
-    const auto& [a, b, c] = soup.triangles[t];
-    triples.push_back({positions[a], positions[b], positions[c]});
+  for (Index t = 0; t < soup.triangles.size(); ++t)
     fronts.push_back(shading::unit_normal(soup, t));
-  }
   internal::Disjoint_sets fans(3 * triples.size()); // of corners
   internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     const Vector &front = fronts[a.at_low / 3], &other = fronts[b.at_low / 3];

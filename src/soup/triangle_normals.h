@@ -22,6 +22,9 @@ using Vector = internal::Vector_of_doubles;
 /// Of 60°: normals that are farther from that of their triangle shade it like another.
 constexpr double s_cosine_of_shading = 0.5;
 
+/// Of 1°: normals that differ by more belong to two sides of a hard edge.
+constexpr double s_cosine_smooth = 0.9998476952;
+
 inline Vector difference(const Point_3& a, const Point_3& b)
 {
   return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
@@ -42,6 +45,11 @@ inline Vector unit(Vector a)
   for (double& x : a)
     x /= norm;
   return a;
+}
+
+inline bool is_within(const Vector& a, const Vector& b, double cosine)
+{
+  return internal::dot(unit(a), unit(b)) >= cosine;
 }
 
 inline Vector unit_normal(const Triangle_soup& soup, Index triangle)

@@ -287,7 +287,7 @@ for file, entry in (
 group("src/soup/smooth_normals.cpp", ("smooth_normals_test",),
       ("front == Vector{} || other == Vector{} || internal::dot(front, other) >= s_cosine_of_hard_edge", "true", "hard edges are shaded smooth"),
       ("      fans.unite(a.at_high, b.at_high);\n", "", "one end of each edge is shaded hard"),
-      ("triples.push_back({positions[a], positions[b], positions[c]});", "triples.push_back({a, b, c});", "seams of the texture are hard edges where normals are made anew"),
+      ("in_positions(soup.triangles, number_positions(soup.points))", "soup.triangles", "seams of the texture are hard edges where normals are made anew"),
       ("angle * fronts[corner / 3][i]", "fronts[corner / 3][i]", "smooth normals lean to where many faces meet"),
       ("  if (soup.scene)\n    add_normals_to_scene(soup);\n", "", "scenes without normals stay without"))
 group("src/replay/Start.cpp", ("smooth_normals_test",),
@@ -344,16 +344,18 @@ group("src/files/gltf_reader.cpp", ("gltf_instances_test",),
       ("model().nodes[place.node].skin == -1 && hides_all(place.to_world)", "false", "hidden meshes are lost"))
 group("src/files/gltf_nodes.cpp", ("gltf_levels_test",),
       ("follow_mesh(n, number);", ";", "an avatar's expressions name a node without a mesh"))
-group("src/soup/normals.cpp", ("shading_test",),
+group("src/soup/mend_normals.cpp", ("shading_test",),
       ("is_renewed[fans.find(corner)] = true;", ";", "normals that point to the back are not mended"),
-      ("is_wrong[3 * t + k] || is_changed", "true", "what has not changed is mended along"),
-      ("is_wrong[3 * t + k] || is_changed", "is_wrong[3 * t + k]", "a crease comes beside a mended normal"),
-      ("side != 0 && side * now[k] < limit", "true", "normals that are near are mended"),
-      ("std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]})", "s_cosine_of_shading", "normals that were as far are mended"),
+      ("m_is_wrong[3 * t + k] || is_changed", "true", "what has not changed is mended along"),
+      ("m_is_wrong[3 * t + k] || is_changed", "m_is_wrong[3 * t + k]", "a crease comes beside a mended normal"),
+      ("side != 0 && side * cosines[k] < limit", "true", "normals that are near are mended"),
+      ("limit = std::min(limit, side * cosine);", ";", "normals that were as far are mended"),
       ("if (dot(mean, front) < s_cosine_of_shading)", "if (false)", "mended normals point to the back"),
+      ("in_positions(m_result.triangles, number_positions(m_result.points))", "m_result.triangles",
+       "seams of the texture are hard edges where normals are mended"))
+group("src/soup/normals.cpp", ("shading_test",),
       ("if (cosine > highest)", "if (false)", "each corner keeps the normals of its triangle"),
-      ("corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2}", "false", "triangles that have not changed pick other normals"),
-      ("positions[a], positions[b], positions[c]", "a, b, c", "seams of the texture are hard edges where normals are mended"))
+      ("corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2}", "false", "triangles that have not changed pick other normals"))
 group(
     headers + "Surface_mesh_simplification/internal/Tracked_points.h",
     ("tracked_points_test",),
