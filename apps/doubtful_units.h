@@ -43,7 +43,7 @@ inline std::string doubt_of_unit(const CGAL::Bbox_3& of_mesh, const CGAL::Bbox_3
   return {};
 }
 
-/// The same of an obstacle, which may also be in another place.
+/// Returns what suggests that an obstacle is in another unit or place than the mesh; else nothing.
 inline std::string doubt_of_obstacle(const Triangle_soup& mesh, const Triangle_soup& obstacle)
 {
   const CGAL::Bbox_3 of_mesh = box_of(mesh.points, mesh.triangles),

@@ -85,11 +85,11 @@ bool has_buffers_beside(const std::filesystem::path& path);
 Write_notes write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,
                          bool is_ascii);
 
-/// Does the same for several levels of detail in one file, as `write_levels_of_detail` does.
+/// Writes several levels of detail to one file, as `write_levels_of_detail` does. Throws likewise.
 void write_output(const std::filesystem::path& name, const std::vector<Triangle_soup>& levels,
                   Mesh_format format);
 
-/// Does the same for the further poses of a mesh in one file: a point cache, or else glTF.
+/// Writes the further poses of a mesh to one file: a point cache, or else glTF. Throws likewise.
 void write_output_of_poses(const std::filesystem::path& name, const Triangle_soup& soup);
 
 } // namespace selvedge::app

@@ -29,7 +29,7 @@ struct Pose_sources
   bool empty() const { return files.empty() && !are_morphs && animation.empty() && !are_of_humanoid; }
 };
 
-/// For messages.
+/// The options that name further poses, for messages.
 inline constexpr const char* options_of_poses = "--pose, --morphs, --animation or --humanoid-poses";
 
 /// Declares an option that names further poses of a mesh by files.

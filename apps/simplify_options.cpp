@@ -211,7 +211,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(limits);
   command
       .add_option("--seam-turn", options.max_seam_turn,
-                  "The same for a seam, which has surface on both sides.")
+                  "Largest turn of a seam, which has surface on both sides, at a vertex that is removed, in degrees.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
@@ -343,7 +343,7 @@ void add_options(CLI::App& command, Simplify_request& request)
              "ignores it.");
   add_weight(
       "--normal-weight", options.normal_weight,
-      "The same for the turn of normals: those that are kept or, in a mesh of up to 500,000 faces that keeps "
+      "Weight of the turn of normals in the cost, likewise: of those that are kept or, in a mesh of up to 500,000 faces that keeps "
       "none, smooth ones, as viewers shade it. More keeps the shading truer, and the shape less so.");
   add_weight("--border-weight", options.cost.border_weight,
              "Weight of borders, and of edges over which the surface folds, in the cost.");

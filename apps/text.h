@@ -98,7 +98,7 @@ inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagon
          ")";
 }
 
-/// The same of the clear length to edges.
+/// Says how many border vertices are within the clear length to edges, which there is.
 inline std::string edges_in_clear_gaps(const Border_gaps& gaps, double diagonal)
 {
   return with_commas(gaps.within_clear_length_to_edges) + " of " + with_commas(gaps.border_vertices) +

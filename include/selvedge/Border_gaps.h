@@ -41,8 +41,8 @@ struct Border_gaps
   /// How many vertices have a partner within it; 0 without it.
   std::size_t within_clear_length = 0;
 
-  /// The same of distances to edges, beyond the clear length, if there is one: seams whose two sides have
-  /// different numbers of vertices have no partners at clear distances. Such a gap is the distance of a
+  /// The clear length of distances to edges, beyond that to partners, if there is one: seams whose two sides
+  /// have different numbers of vertices have no partners at clear distances. Such a gap is the distance of a
   /// vertex to the nearest edge of another border (or of another part of its own) at which the surface
   /// continues, and along which that border runs the opposite way, give or take 60°. It counts
   /// - in rows of at least four vertices that face the border of one piece, and

@@ -65,9 +65,9 @@ public:
     return true;
   }
 
-  /// The same for one reduction or several, one for each level of detail, with the largest distances of their
-  /// results. Where these are too large in a further pose that is not guarded, adds this to the numbers of
-  /// those that are, and leaves the error as it is.
+  /// Called after a reduction, or several, one for each level of detail, with the largest distances of their
+  /// results. Returns whether another one is due. Where the distances are too large in a further pose that is
+  /// not guarded, adds this to the numbers of those that are, and leaves the error as it is.
   bool advance(const std::vector<Bounds_over_poses>& levels, std::vector<std::size_t>& guarded_poses)
   {
     Bounds_over_poses largest;

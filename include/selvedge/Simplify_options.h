@@ -106,9 +106,10 @@ struct Simplify_options
   /// vertices, and rectangular pieces keep their corners, however small. 0 makes no corner low.
   double max_corner_height = 0.0025;
 
-  /// The same for a line inside the surface: a sewn seam, or a chain of edges across which texture
-  /// coordinates, normals, groups, objects, materials or the values of large regions of faces change. The
-  /// default is larger than for borders, because no outline frays there, and such lines are often bent.
+  /// The largest turn that a line inside the surface may have, likewise: a sewn seam, or a chain of edges
+  /// across which texture coordinates, normals, groups, objects, materials or the values of large regions of
+  /// faces change. The default is larger than for borders, because no outline frays there, and such lines are
+  /// often bent.
   double max_seam_turn = 90;
 
   /// The largest distance from an original vertex of a border or seam to the segment that replaces it, as a
@@ -134,9 +135,10 @@ struct Simplify_options
   /// this part of the cost off.
   double uv_weight = 0.02;
 
-  /// The same for normals: of how much the normal of a point of the surface turns, relative to the
-  /// displacement of the surface itself. A radian counts as a length: the radius of the mean curvature that
-  /// the normals tell. More weight keeps the shading truer, and the shape less so.
+  /// The weight of the turn of normals in the cost: of how much the normal of a point of the surface turns,
+  /// relative to the displacement of the surface itself; finite, at least 0. A radian counts as a length: the
+  /// radius of the mean curvature that the normals tell. More weight keeps the shading truer, and the shape
+  /// less so.
   ///
   /// The normals are those that a soup keeps. If it keeps none, is not shaded flat, and has at most
   /// `most_faces_shaded` triangles, they are the smooth ones with which viewers shade such a mesh, so that

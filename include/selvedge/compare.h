@@ -58,8 +58,8 @@ struct Distances_anywhere
   }
 };
 
-/// Computes both with `maximum_distance`. Throws `Argument_error` unless both meshes have the same number of
-/// further poses; so does `compare`.
+/// Bounds the distances of two meshes anywhere, by `maximum_distance`. Throws `Argument_error` unless both
+/// meshes have the same number of further poses; so does `compare`.
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original);
 
 /// How far the lines of one mesh are from those of the other.

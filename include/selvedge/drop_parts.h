@@ -22,7 +22,8 @@ struct Sized_piece
   std::size_t triangles = 0;
 };
 
-/// Returns all of them, from small to large. **Complexity** O(n log n).
+/// Returns the pieces of a mesh that are connected by positions, from small to large. **Complexity** O(n log
+/// n).
 std::vector<Sized_piece> sized_pieces(const Triangle_soup& soup);
 
 /// Which triangles of a mesh are left out before anything else is done with it.

@@ -46,7 +46,7 @@ struct Part_distance
   double diagonal = 0; ///< of the part, in the original
 };
 
-/// Returns this for each of some parts.
+/// Returns how far each of some parts is from what is left of it.
 ///
 /// **Exactness** Floating point. **Complexity** O(n log n) in practice for all parts together, in parallel.
 std::vector<Part_distance> part_distances(const Simplified_soup& result, const Prepared_soup& original,

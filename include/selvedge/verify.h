@@ -389,7 +389,7 @@ struct Verification
   /// of the original; all pairs when no original was given.
   std::vector<Offending_pair> new_pairs;
   std::vector<Piece> pieces;
-  /// This and the next two stay empty when no original was given.
+  /// How pieces differ from those of the original. It and the next two stay empty when none was given.
   std::vector<Topology_difference> topology_differences;
   Piece_matching matching;
   std::optional<Distances> distances;

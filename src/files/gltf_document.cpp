@@ -211,12 +211,12 @@ void check_lists(const Gltf_document& document)
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
     const tinygltf::Node& node = model.nodes[n];
     const Json& json = document.json["nodes"][n];
-    const auto has_size = [&](const char* name, const std::vector<double>& values, std::size_t size) {
+    const auto has_wrong_size = [&](const char* name, const std::vector<double>& values, std::size_t size) {
       return json.contains(name) &&
              (!node.matrix.empty() && &values != &node.matrix ? false : values.size() != size);
     };
-    if (has_size("matrix", node.matrix, 16) || has_size("translation", node.translation, 3) ||
-        has_size("rotation", node.rotation, 4) || has_size("scale", node.scale, 3))
+    if (has_wrong_size("matrix", node.matrix, 16) || has_wrong_size("translation", node.translation, 3) ||
+        has_wrong_size("rotation", node.rotation, 4) || has_wrong_size("scale", node.scale, 3))
       document.fail("node " + std::to_string(n) + " has a transform of the wrong length; correct it");
     if (!node.matrix.empty() &&
         (node.matrix[3] != 0 || node.matrix[7] != 0 || node.matrix[11] != 0 || node.matrix[15] != 1))

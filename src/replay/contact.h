@@ -37,7 +37,7 @@ struct Standing
   std::size_t size;
 };
 
-/// How often the slow way was gone.
+/// How many pairs were asked about, and how many of them took the slow way.
 struct Contact_statistics
 {
   std::size_t pairs = 0;

@@ -55,9 +55,9 @@ private:
                                              const Coordinates& place, bool is_kept_still) const;
 
   bool is_of_strip(const Complex& complex, Index face, Index mover, Index other) const;
+  Coordinates scaled(const Coordinates& point) const;
 
   Reduction_limits m_limits;
-  Coordinates scaled(const Coordinates& point) const;
 
   int m_exponent = 0;
   double m_diagonal = 0;

@@ -54,8 +54,8 @@ public:
   /// where there is no texture, it is 0. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
 
-  /// The same for `normal_cost`, in which `unit` is the `normal_unit` of the soup at the scale. The normals
-  /// are those of the corners of the soup, or others, by vertex of the soup.
+  /// Makes `normal_cost` say how far normals turn, likewise. `unit` is the `normal_unit` of the soup at the
+  /// scale. The normals are those of the corners of the soup, or others, by vertex of the soup.
   void measure_normals(double unit, std::shared_ptr<const Vertex_normals> normals = nullptr);
 
   /// Finds the values around each vertex that are to be measured. Others may read the mesh meanwhile.

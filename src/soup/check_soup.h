@@ -14,10 +14,10 @@ namespace selvedge {
 /// `what` and names the array and the element. O(n).
 void check_soup(const Triangle_soup& soup, const std::string& what);
 
-/// The same for all but the polygons.
+/// Checks all but the polygons of a soup, as `check_soup` does.
 void check_arrays(const Triangle_soup& soup, const std::string& what);
 
-/// The same for points, poses and triangles alone.
+/// Checks points, poses and triangles of a soup alone, as `check_soup` does.
 void check_geometry(const Triangle_soup& soup, const std::string& what);
 
 } // namespace selvedge

@@ -22,10 +22,10 @@ struct Numbered_pieces
 /// own.
 Numbered_pieces numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices);
 
-/// Does the same as `pieces`.
+/// Finds the pieces of a soup, as `pieces` does.
 Numbered_pieces numbered_pieces(const Triangle_soup& soup);
 
-/// Does so too, where `positions` holds the number of each vertex's position.
+/// Finds the pieces of a soup where `positions` holds the number of each vertex's position.
 Numbered_pieces numbered_pieces(const Triangle_soup& soup, const Index* positions);
 
 } // namespace selvedge::internal

@@ -32,7 +32,8 @@ struct Border_rule_options
   /// The largest angle, in degrees from 0 to 180, by which a border may turn at a vertex that leaves it.
   double max_border_turn = 8;
 
-  /// The same for marked edges. It can be larger: there is surface on both sides, and no outline to fray.
+  /// The largest angle by which a line of marked edges may turn, likewise. It can be larger: there is surface
+  /// on both sides, and no outline to fray.
   double max_seam_turn = 60;
 
   /// The largest height, in units of the mesh and at least 0, of a *low corner*: a border may turn by more

@@ -150,7 +150,7 @@ struct No_observer
     return 0;
   }
 
-  /// The same for the turn of normals.
+  /// Returns how much the motion adds to the turn of normals, in the measure of `uv_cost`.
   template <class Halfedge>
   double normal_cost(const Halfedge& /*moving*/) const
   {
