@@ -25,6 +25,7 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/internal/Stopwatch.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 #include <selvedge/mesh_files.h>
@@ -35,7 +36,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -47,13 +47,6 @@
 
 namespace selvedge::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Reduces one file to one output, or to one for each level of detail.
 class Reduction
@@ -206,10 +199,10 @@ private:
   Prepared_soup read_and_prepare()
   {
     m_bar.begin("reading");
-    const Clock::time_point start = Clock::now();
+    const internal::Stopwatch stopwatch;
     Mesh_input input(m_request.input, m_request.format);
     Mesh_file file = input.read();
-    m_seconds["read"] = seconds_since(start);
+    m_seconds["read"] = stopwatch.seconds();
     read_poses(m_request.poses, m_request.input, file.soup);
     if (!m_request.log.empty()) {
       m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
@@ -417,7 +410,7 @@ private:
   {
     m_bar.begin((levels.size() == 1 ? "judging the result" : "judging the results") +
                 in_poses(prepared.soup.poses.size()));
-    const Clock::time_point start = Clock::now();
+    const internal::Stopwatch stopwatch;
     m_outcome = {};
     m_outcome.is_guarded = m_request.options.check_intersections;
     m_outcome.is_target_required = m_request.is_target_required;
@@ -431,7 +424,7 @@ private:
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
     }
-    m_seconds["verify"] += seconds_since(start);
+    m_seconds["verify"] += stopwatch.seconds();
   }
 
   // Has a mesh refer to the same files from another output. So far it names those to which the first output
@@ -473,7 +466,7 @@ private:
 
   void write(const Prepared_soup& prepared, std::vector<Level>& levels)
   {
-    const Clock::time_point start = Clock::now();
+    const internal::Stopwatch stopwatch;
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
       const bool is_of_same_format = format_of(m_request.input, m_request.format) == output_format() &&
@@ -508,7 +501,7 @@ private:
       write_file(output_path(m_request.log), m_log.str());
       m_files_written.push_back(m_request.log);
     }
-    m_seconds["write"] = seconds_since(start);
+    m_seconds["write"] = stopwatch.seconds();
     m_bar.clear();
     for (const Level& level : levels)
       if (const std::string what = complaint(m_request, level, m_outcome); !what.empty())
@@ -566,9 +559,9 @@ private:
       add_distances(json, level.verification, level.distances_anywhere);
       add_error_search(json, level.error_search);
       add_guarded_poses(json, level.guarded_poses, level.result);
-      const Clock::time_point start = Clock::now();
+      const internal::Stopwatch stopwatch;
       add_parts(json, prepared, level.result);
-      seconds_parts += seconds_since(start);
+      seconds_parts += stopwatch.seconds();
     };
     add_level(m_report, levels.back());
     for (const Level& level : levels)

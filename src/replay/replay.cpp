@@ -14,10 +14,10 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
+#include <selvedge/internal/Stopwatch.h>
 #include <selvedge/internal/exact_predicates.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -60,13 +60,6 @@ const char* name(Limits_source source)
 namespace reference {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// Takes the steps of a log one after the other and judges each before it changes the mesh.
 class Replay
 {
@@ -91,7 +84,7 @@ public:
 
   Replay_verdict run()
   {
-    const Clock::time_point start = Clock::now();
+    const internal::Stopwatch stopwatch;
     Log_step step;
     while (m_log.read(step)) {
       if (step.kind == Log_step::Kind::weld) {
@@ -115,7 +108,7 @@ public:
       judge_result();
     measure_snaps();
     m_verdict.soup = m_complex.result();
-    m_verdict.seconds_steps = seconds_since(start);
+    m_verdict.seconds_steps = stopwatch.seconds();
     m_verdict.pairs_judged = m_mesh.statistics().pairs;
     m_verdict.pairs_judged_in_rationals = m_mesh.statistics().exact;
     return std::move(m_verdict);
@@ -457,9 +450,9 @@ Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& lo
 {
   internal::require_default_arithmetic();
   const bool is_obstacle_stated = reference::check_inputs(original, is_stl, log.header(), options);
-  const auto start = reference::Clock::now();
+  const internal::Stopwatch stopwatch;
   reference::Replay run(original, is_stl, log, options);
-  const double seconds_prepare = reference::seconds_since(start);
+  const double seconds_prepare = stopwatch.seconds();
   Replay_verdict verdict = run.run();
   verdict.is_obstacle_stated = is_obstacle_stated;
   verdict.seconds_prepare = seconds_prepare;

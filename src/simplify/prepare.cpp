@@ -3,7 +3,6 @@
 
 #include <selvedge/prepare.h>
 
-#include "Stopwatch.h"
 #include "soup/Gltf_scene.h"
 #include "soup/Sewing.h"
 #include "soup/check_soup.h"
@@ -18,6 +17,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
+#include <selvedge/internal/Stopwatch.h>
 
 #include <algorithm>
 #include <limits>
@@ -540,7 +540,7 @@ private:
   std::vector<char> m_is_merged_in_a_pose;             // by vertex; empty when there is one pose
   std::vector<Offending_pair> m_all_pairs;             // those between parts that may intersect, too
   std::vector<Offending_pair> m_pairs_before_rounding; // with triangle numbers after it
-  Stopwatch m_stopwatch;
+  internal::Stopwatch m_stopwatch;
 };
 
 } // namespace

@@ -3,7 +3,6 @@
 
 #include <selvedge/simplify.h>
 
-#include "Stopwatch.h"
 #include "guarded_poses.h"
 #include "reduce_in_cells.h"
 #include "soup/Working_mesh.h"
@@ -18,6 +17,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+#include <selvedge/internal/Stopwatch.h>
 
 #include <oneapi/tbb/parallel_invoke.h>
 
@@ -334,7 +334,7 @@ private:
   // them.
   void run_in_cells()
   {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     const auto total = m_simplification.targets().total();
     const std::size_t movable =
         m_working.mesh().number_of_vertices() - m_working.constraints().locked_vertices.size();
@@ -390,7 +390,7 @@ private:
 
   Simplified_soup state(const Simplify_report& report) const
   {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     Simplified_soup result;
     Working_mesh::Result left = m_working.result();
     result.soup = std::move(left.soup);
@@ -438,7 +438,7 @@ private:
   std::optional<double> m_clearance; // in the unit of the soup
   const Prepared_soup& m_prepared;
   std::vector<char> m_is_frozen; // by triangle of the original
-  Stopwatch m_stopwatch;
+  internal::Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;
   std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0, m_untied_pairs = 0;

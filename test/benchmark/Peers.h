@@ -10,12 +10,12 @@
 #endif
 
 #include "soup/Working_mesh.h"
+#include <selvedge/internal/Stopwatch.h>
 #include <selvedge/simplify.h>
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -32,15 +32,7 @@ struct Outcome
   std::size_t collapses;
 };
 
-class Stopwatch
-{
-public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - m_start).count(); }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point m_start = Clock::now();
-};
+using internal::Stopwatch;
 
 /// The triangles of a mesh, which has no garbage.
 template <class Surface_mesh>

@@ -21,10 +21,10 @@
 #include <selvedge/Surface_mesh_simplification/internal/Reduction_setup.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
+#include <selvedge/internal/Stopwatch.h>
 
 #include <CGAL/Kernel_traits.h>
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -57,7 +57,6 @@ class Simplification
   using Cost = Collapse_cost<TriangleMesh, VertexPointMap, Observer>;
   using Rule = typename Filters::Rule;
   using Targets = typename Filters::Targets;
-  using Clock = std::chrono::steady_clock;
 
 public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options,
@@ -112,11 +111,11 @@ public:
   {
     if (std::exchange(m_has_index, true))
       return;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     Cancellation_scope::check();
     m_filters.build_index();
     Cancellation_scope::check();
-    m_report.seconds_index = seconds_since(start);
+    m_report.seconds_index = stopwatch.seconds();
   }
 
   double diagonal() const { return m_diagonal; }
@@ -427,16 +426,11 @@ private:
     report.refused_elsewhere = m_motions.refused_elsewhere();
     report.left_alone = m_filters.partners().alone();
     m_filters.add_statistics(report);
-    report.seconds_reduce = seconds_since(m_start);
+    report.seconds_reduce = m_stopwatch.seconds();
     return report;
   }
 
-  static double seconds_since(Clock::time_point start)
-  {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
-  Clock::time_point m_start = Clock::now();
+  Stopwatch m_stopwatch;
   TriangleMesh& m_mesh;
   VertexPointMap m_points;
   const Simplify_options& m_options;

@@ -1,12 +1,13 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_SIMPLIFY_STOPWATCH_H
-#define SELVEDGE_SIMPLIFY_STOPWATCH_H
+#ifndef SELVEDGE_INTERNAL_STOPWATCH_H
+#define SELVEDGE_INTERNAL_STOPWATCH_H
 
 #include <chrono>
 
 namespace selvedge {
+namespace internal {
 
 /// Measures the time since it was made, or since the last call of `restart`.
 class Stopwatch
@@ -27,6 +28,7 @@ private:
   Clock::time_point m_start = Clock::now();
 };
 
+} // namespace internal
 } // namespace selvedge
 
-#endif // SELVEDGE_SIMPLIFY_STOPWATCH_H
+#endif // SELVEDGE_INTERNAL_STOPWATCH_H
