@@ -198,6 +198,13 @@ private:
 
   Prepared_soup read_and_prepare()
   {
+    Triangle_soup soup = read();
+    return prepare_input(std::move(soup), read_obstacle());
+  }
+
+  // Returns the input without what is left out of it, having refused outputs that do not fit it.
+  Triangle_soup read()
+  {
     m_bar.begin("reading");
     const internal::Stopwatch stopwatch;
     Mesh_input input(m_request.input, m_request.format);
@@ -233,37 +240,45 @@ private:
       for (const Pose& pose : file.soup.poses)
         m_log_header.poses.push_back({pose.name, digest_of(pose.points), {}});
     }
-    Triangle_soup obstacle;
-    if (!m_request.obstacle.empty()) {
-      Mesh_input obstacle_input(m_request.obstacle, m_request.format);
-      obstacle = obstacle_input.read().soup;
-      read_obstacle_poses(m_request.obstacle_poses, m_request.obstacle, m_request.poses, obstacle);
-      m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
-    }
+    return std::move(file.soup);
+  }
 
+  Triangle_soup read_obstacle()
+  {
+    if (m_request.obstacle.empty())
+      return {};
+    Mesh_input input(m_request.obstacle, m_request.format);
+    Triangle_soup obstacle = input.read().soup;
+    read_obstacle_poses(m_request.obstacle_poses, m_request.obstacle, m_request.poses, obstacle);
+    m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), input.sha256()};
+    return obstacle;
+  }
+
+  Prepared_soup prepare_input(Triangle_soup soup, const Triangle_soup& obstacle)
+  {
     for (const std::string& name : {m_request.output, m_request.progressive})
-      require_avatar(name, file.soup);
-    m_references = relocate(file.soup, output_format(), m_request.input, m_request.output);
+      require_avatar(name, soup);
+    m_references = relocate(soup, output_format(), m_request.input, m_request.output);
 
-    m_bar.begin("judging the input" + in_poses(file.soup.poses.size()));
+    m_bar.begin("judging the input" + in_poses(soup.poses.size()));
     Prepare_options options;
-    options.round_to_float32 = is_rounded(file.soup);
+    options.round_to_float32 = is_rounded(soup);
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.open_seams = m_request.open_seams;
     options.normals = m_normals;
     options.orient = m_request.are_faces_oriented;
-    options.may_intersect = parts_in_pairs(file.soup, m_request.may_intersect, "--may-intersect");
+    options.may_intersect = parts_in_pairs(soup, m_request.may_intersect, "--may-intersect");
     keep_from_snapping(options, m_request.intent);
     try {
-      Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);
+      Prepared_soup result = prepare(std::move(soup), options, obstacle);
       if (!m_request.progressive.empty() &&
-          (prepared.normals == Normals_treatment::smooth || prepared.normals == Normals_treatment::smoothed ||
-           prepared.normals == Normals_treatment::picked))
+          (result.normals == Normals_treatment::smooth || result.normals == Normals_treatment::smoothed ||
+           result.normals == Normals_treatment::picked))
         throw Argument_error(
             "--progressive: normals that are made anew are others in every level, and the file has "
             "one for each vertex; leave out --normals");
-      return prepared;
+      return result;
     } catch (const Input_error& error) {
       throw Input_error(input_name(m_request.input) +
                         (m_request.dropped_parts.empty() ? ": " : ", without what is left out: ") +
