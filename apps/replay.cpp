@@ -284,7 +284,8 @@ void rewind(std::istream& stream)
   stream.seekg(0);
 }
 
-Exit_code run(const Replay_request& request)
+// Refuses what can be refused before any work is done.
+void check(const Replay_request& request)
 {
   require_html(request.html);
   const std::vector<Named_file> written{{"--output", request.output},
@@ -298,9 +299,8 @@ Exit_code run(const Replay_request& request)
                 put_out, request.format);
   require_use_of_ascii(request.is_ascii, {request.output}, request.format);
   require_use_of_polygons(request.are_polygons_split, {request.output}, request.format);
-  std::optional<Mesh_format> format;
   if (!request.output.empty())
-    format = format_of(request.output, request.format);
+    format_of(request.output, request.format);
   check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
   std::vector<Named_file> read{
       {"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}};
@@ -308,6 +308,50 @@ Exit_code run(const Replay_request& request)
   append_pose_files(read, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   require_distinct(written, read);
   require_writable(written);
+}
+
+Json report_json(const Replay_request& request, const Mesh_file& original, const Replay_verdict& verdict,
+                 const std::vector<Replay_verdict>& in_poses, const std::vector<std::size_t>& numbers,
+                 Exit_code code)
+{
+  Json report = new_report("replay");
+  report["input"] = input_json(request.original, original);
+  report["log"] = {{"path", request.log}};
+  report["obstacle"] = request.obstacle.empty() ? Json(nullptr) : Json{{"path", request.obstacle}};
+  add_replay(report, verdict);
+  Json poses = Json::array();
+  for (std::size_t i = 0; i < in_poses.size(); ++i) {
+    Json& pose = poses.emplace_back(Json{{"name", original.soup.poses[numbers[i]].name}});
+    add_replay(pose, in_poses[i]);
+  }
+  report["poses"] = std::move(poses);
+  report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
+  report["exit_code"] = int(code);
+  return report;
+}
+
+// Returns the page that shows the steps of a log, in the mesh as the log rounds it.
+std::string page(const Replay_request& request, Mesh_file original, const Triangle_soup& obstacle,
+                 std::istream& text, const Replay_verdict& verdict,
+                 const std::vector<Replay_verdict>& in_poses, const std::vector<std::size_t>& numbers,
+                 const Json& report)
+{
+  const Log_numbering numbering(original.soup, original.format == Mesh_format::stl);
+  if (verdict.header.is_rounded_to_float32)
+    round_to_float32(original.soup);
+  Html_report html(original.soup, obstacle);
+  rewind(text);
+  Log_reader log(text, input_name(request.log));
+  html.add_replay(request.log, verdict, html.add_collapses(steps_taken(log, numbering, verdict)));
+  html.add_violations(verdict.violations, 0);
+  for (std::size_t i = 0; i < in_poses.size(); ++i)
+    html.add_violations(in_poses[i].violations, numbers[i] + 1);
+  return html.page(report);
+}
+
+Exit_code run(const Replay_request& request)
+{
+  check(request);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
   std::unique_ptr<std::istream> stream = open_text(request.log);
@@ -346,11 +390,9 @@ Exit_code run(const Replay_request& request)
   Replay_verdict verdict = replay_once();
   std::vector<Replay_verdict> in_poses;
   std::vector<std::size_t> numbers;
-  std::vector<std::string> names;
   if (!original.soup.poses.empty() && !verdict.is_stopped)
     numbers = poses_of_log(request, original.soup, verdict.header, options.obstacle);
   for (const std::size_t pose : numbers) {
-    names.push_back(original.soup.poses[pose].name);
     options.pose = pose;
     in_poses.push_back(replay_once());
     in_poses.back().soup = {};
@@ -362,19 +404,7 @@ Exit_code run(const Replay_request& request)
                              ? exit_not_verified
                          : is_any([](const Replay_verdict& v) { return v.is_stopped; }) ? exit_interrupted
                                                                                         : exit_done;
-  Json report = new_report("replay");
-  report["input"] = input_json(request.original, original);
-  report["log"] = {{"path", request.log}};
-  report["obstacle"] = request.obstacle.empty() ? Json(nullptr) : Json{{"path", request.obstacle}};
-  add_replay(report, verdict);
-  Json poses = Json::array();
-  for (std::size_t i = 0; i < in_poses.size(); ++i) {
-    Json& pose = poses.emplace_back(Json{{"name", names[i]}});
-    add_replay(pose, in_poses[i]);
-  }
-  report["poses"] = std::move(poses);
-  report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
-  report["exit_code"] = int(code);
+  const Json report = report_json(request, original, verdict, in_poses, numbers, code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.output) ||
                                            is_standard_output(request.scene) ||
@@ -382,7 +412,7 @@ Exit_code run(const Replay_request& request)
     put_report(request, report, [&] {
       print(request, verdict);
       for (std::size_t i = 0; i < in_poses.size(); ++i)
-        print(names[i], in_poses[i]);
+        print(original.soup.poses[numbers[i]].name, in_poses[i]);
       if (!verdict.is_stopped)
         print_other_poses(original.soup.poses, numbers);
     });
@@ -390,23 +420,14 @@ Exit_code run(const Replay_request& request)
   if (!request.scene.empty())
     write_scene(request.scene, verdict, in_poses);
   if (!request.output.empty() && !verdict.is_stopped) {
-    relocate(verdict.soup, *format, request.original, request.output);
-    write_output(request.output, verdict.soup, *format, request.is_ascii);
+    const Mesh_format format = format_of(request.output, request.format);
+    relocate(verdict.soup, format, request.original, request.output);
+    write_output(request.output, verdict.soup, format, request.is_ascii);
   }
-  if (!request.html.empty()) {
-    const Log_numbering numbering(original.soup, original.format == Mesh_format::stl);
-    if (verdict.header.is_rounded_to_float32)
-      round_to_float32(original.soup);
-    const Triangle_soup nothing;
-    Html_report html(original.soup, options.obstacle ? *options.obstacle : nothing);
-    rewind(*stream);
-    Log_reader log(*stream, input_name(request.log));
-    html.add_replay(request.log, verdict, html.add_collapses(steps_taken(log, numbering, verdict)));
-    html.add_violations(verdict.violations, 0);
-    for (std::size_t i = 0; i < in_poses.size(); ++i)
-      html.add_violations(in_poses[i].violations, numbers[i] + 1);
-    write_file(output_path(request.html), html.page(report));
-  }
+  if (!request.html.empty())
+    write_file(output_path(request.html),
+               page(request, std::move(original), options.obstacle.value_or(Triangle_soup()), *stream,
+                    verdict, in_poses, numbers, report));
   return code;
 }
 
