@@ -6,6 +6,7 @@
 #include "Byte_writer.h"
 #include "gltf_encoding.h"
 #include "soup/flat_shading.h"
+#include "soup/gltf_transforms.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
 

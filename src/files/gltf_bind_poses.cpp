@@ -4,6 +4,7 @@
 #include "files/gltf_bind_poses.h"
 
 #include "files/gltf_column_reader.h"
+#include "soup/gltf_transforms.h"
 
 #include <algorithm>
 #include <cmath>

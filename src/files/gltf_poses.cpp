@@ -6,6 +6,7 @@
 #include "files/gltf_column_reader.h"
 #include "files/gltf_document.h"
 #include "files/humanoid.h"
+#include "soup/gltf_transforms.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>

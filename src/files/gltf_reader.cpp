@@ -10,6 +10,7 @@
 #include "files/gltf_quantization.h"
 #include "files/row_unlike.h"
 
+#include "soup/gltf_transforms.h"
 #include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>

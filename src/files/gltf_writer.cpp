@@ -11,6 +11,7 @@
 #include "files/united_levels.h"
 #include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
+#include "soup/gltf_transforms.h"
 #include "soup/poles.h"
 
 #include <selvedge/Cancellation_scope.h>

@@ -4,6 +4,7 @@
 #include "files/humanoid.h"
 
 #include "files/gltf_document.h"
+#include "soup/gltf_transforms.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
 

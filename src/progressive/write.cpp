@@ -6,6 +6,7 @@
 #include "files/Local_normals.h"
 #include "files/formats.h"
 #include "soup/Gltf_scene.h"
+#include "soup/gltf_transforms.h"
 #include "soup/poles.h"
 
 #include <selvedge/Error.h>

@@ -4,6 +4,7 @@
 #include "Place_rounding.h"
 
 #include "Gltf_scene.h"
+#include "gltf_transforms.h"
 
 #include <selvedge/rounding.h>
 

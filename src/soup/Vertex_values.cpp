@@ -4,6 +4,7 @@
 #include "Vertex_values.h"
 
 #include "Gltf_scene.h"
+#include "gltf_transforms.h"
 #include "poles.h"
 #include "selection.h"
 #include "with_number.h"

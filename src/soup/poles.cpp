@@ -6,6 +6,7 @@
 #include "Disjoint_sets.h"
 #include "Gltf_scene.h"
 #include "flat_shading.h"
+#include "gltf_transforms.h"
 #include "number_positions.h"
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>

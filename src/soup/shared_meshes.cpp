@@ -4,6 +4,7 @@
 #include "shared_meshes.h"
 
 #include "Gltf_scene.h"
+#include "gltf_transforms.h"
 
 #include <algorithm>
 #include <cmath>

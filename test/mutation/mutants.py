@@ -408,7 +408,7 @@ for file, *entry in (
     ("src/files/Local_normals.cpp", "result = turned(result, turned(direction(tangents->row(row)), before, after),",
      "if (false) result = turned(result, turned(direction(tangents->row(row)), before, after),",
      "what morph targets add to tangents turns with the normals alone"),
-    ("src/soup/Gltf_scene.cpp", "const bool are_opposite = !(square > least * least);", "const bool are_opposite = false;",
+    ("src/soup/gltf_transforms.cpp", "const bool are_opposite = !(square > least * least);", "const bool are_opposite = false;",
      "vectors turn by half a circle about nothing"),
     ("src/soup/Vertex_values.cpp", "set(added, turned(direction(added), before, direction(column)));", "set(added, turned(direction(added), before, before));",
      "morph targets add to directions at new places what suits their sums"),
@@ -417,7 +417,7 @@ for file, *entry in (
 ):
     group(file, ("gltf_tangents_test",), tuple(entry))
 group(
-    "src/soup/Gltf_scene.cpp",
+    "src/soup/gltf_transforms.cpp",
     ("gltf_writing_test:Gltf.NewPlaces*",),
     ("const Point_3 result = world_position(to_world, inverse(to_world, point));", "const Point_3 result = point;",
      "places that the file cannot hold"),

@@ -9,7 +9,7 @@
 #include "support/vertices_used.h"
 
 #include "files/Local_normals.h"
-#include "soup/Gltf_scene.h"
+#include "soup/gltf_transforms.h"
 #include <selvedge/compare.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
