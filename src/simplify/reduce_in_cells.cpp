@@ -201,12 +201,11 @@ std::vector<char> faces_that_stay(const Cell_context& whole)
   const Prepared_soup& prepared = whole.prepared;
   const Working_mesh::Mesh& mesh = whole.working.mesh();
   std::vector<char> stays(mesh.number_of_faces(), false);
-  // All faces with which a face offends, and all their descendants: only the reduction of the whole makes
-  // descendants. A double offends with its front alone, wherever the two go, or else its front offends as
-  // well.
+  // Faces that offend with others: only the reduction of the whole makes descendants of them. A double
+  // offends with its front alone, wherever the two go, or else its front offends as well.
   for (const auto& [a, b] : whole.working.constraints().offending_pairs)
     stays[a] = stays[b] = true;
-  // Whether all vertices at a position, which move together, are in the cell.
+  // Vertices that move together: all at a position, of which a cell may have some.
   for (const auto& group : whole.working.constraints().joint_vertices)
     for (const auto v : group)
       for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
