@@ -17,6 +17,7 @@ namespace selvedge {
 /// which normals differ by 20° or more (the root of the mean square), and by 45° unless they go on in one way
 /// at 70 % of their vertices or more. Nobody sees the others as edges, yet their vertices could only move
 /// along them. The choice is `loose` if at most a tenth of the length of all lines is hard.
+/// Triangles with two corners at one position are not asked.
 ///
 /// **Complexity** O(n) expected for n triangles.
 Normals_choice suited_to(const Triangle_soup& soup, Normals_choice choice);

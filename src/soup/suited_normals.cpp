@@ -56,14 +56,17 @@ struct Network
 class Line_networks
 {
 public:
+  // Leaves out triangles with two corners at one position: they fill the gap of a line, and hide it.
   explicit Line_networks(const Triangle_soup& soup)
       : m_soup(soup), m_positions(number_positions(soup.points)), m_sets(soup.points.size()),
         m_edges_at(soup.points.size(), 0), m_networks(soup.points.size())
   {
     std::vector<Index_triple> triples;
     triples.reserve(soup.triangles.size());
-    for (const auto& [a, b, c] : soup.triangles)
-      triples.push_back({m_positions[a], m_positions[b], m_positions[c]});
+    for (const auto& [u, v, w] : soup.triangles) {
+      const Index a = m_positions[u], b = m_positions[v], c = m_positions[w];
+      triples.push_back(a == b || b == c || c == a ? Index_triple{a, a, a} : Index_triple{a, b, c});
+    }
     internal::for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
       if (!is_line(a, b))
         return;

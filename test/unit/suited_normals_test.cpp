@@ -79,6 +79,24 @@ TEST(Soft_lines, AreOneOrTwoEdges)
   EXPECT_TRUE(are_lines_soft(soup));
 }
 
+// Such triangles fill the gap between the vertices of the two sides.
+TEST(Soft_lines, AreSeenThroughTrianglesWithTwoCornersAtOnePosition)
+{
+  for (const double degrees : {5, 80}) {
+    Triangle_soup soup = creased(degrees);
+    const std::size_t count = soup.triangles.size();
+    for (std::size_t t = 0; t < count; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = soup.triangles[t][k], b = soup.triangles[t][(k + 1) % 3];
+        soup.triangles.push_back({a, b, Index(soup.points.size())});
+        soup.points.push_back(Point_3(soup.points[a]));
+        const Index_triple numbers = soup.normals.of_triangle[t];
+        soup.normals.of_triangle.push_back({numbers[k], numbers[(k + 1) % 3], numbers[k]});
+      }
+    EXPECT_EQ(are_lines_soft(soup), degrees == 5);
+  }
+}
+
 TEST(Soft_lines, AreNoneWhereTheTextureHasASeam)
 {
   Triangle_soup soup = creased(5);
