@@ -274,7 +274,7 @@ private:
       Prepared_soup result = prepare(std::move(soup), options, obstacle);
       if (!m_request.progressive.empty() &&
           (result.normals == Normals_treatment::smooth || result.normals == Normals_treatment::smoothed ||
-           result.normals == Normals_treatment::picked))
+           are_picked(result.normals)))
         throw Argument_error(
             "--progressive: normals that are made anew are others in every level, and the file has "
             "one for each vertex; leave out --normals");

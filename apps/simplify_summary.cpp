@@ -213,6 +213,9 @@ void print_normals(std::ostream& stream, Normals_choice choice, Normals_treatmen
            << " with a new one, as the old one is too far from the normal of the face";
   if (choice == Normals_choice::automatic && treatment == Normals_treatment::picked)
     stream << "\nhard edges: hardly any, so that none holds vertices (--normals mend keeps them all)";
+  else if (treatment == Normals_treatment::softened)
+    stream << "\nhard edges: those that are too soft to be seen hold no vertices (--normals mend keeps them "
+              "all)";
 }
 
 // Says how far the mesh was reduced.

@@ -18,14 +18,16 @@ namespace selvedge {
 /// normals of its own.
 enum class Normals_choice {
   automatic, ///< as `mend`; but those that are kept then give way to others, with which the result shades
-             ///< most like the original (`fit_normals`). The program takes `loose` for it where `suited_to`
-             ///< does
+             ///< most like the original (`fit_normals`). The program takes `loose` or `soft` for it where
+             ///< `suited_to` does
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   mend,      ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
              ///< kept, those that are nearly alike at a vertex as one (`join_near_normals`), and mended
              ///< (`mend_normals`)
   loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
              ///< vertex which suits its triangle best (`pick_normals`), before they are fitted
+  soft,      ///< as `automatic`; but normals make no lines at vertices on soft lines (`are_on_soft_lines`),
+             ///< where corners get normals as with `loose`
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   smooth,    ///< as `automatic`, with smooth normals in place of those of the input (`smooth_normals`)
   drop       ///< the result has no normals
@@ -39,6 +41,7 @@ enum class Normals_treatment {
             ///< where its own is too far from that of its triangle
   picked,   ///< every corner gets one of those that its vertex has in the input, or a new one as in mended,
             ///< and they are then fitted
+  softened, ///< as picked at vertices on soft lines, and as fitted at others
   fitted,   ///< as mended, and then fitted to the shading of the input
   smoothed, ///< as fitted, with smooth normals in place of those of the input
   flat,     ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
@@ -47,11 +50,12 @@ enum class Normals_treatment {
   dropped
 };
 
-/// Returns the word for this in options and reports: auto, keep, mend, loose, recompute, smooth or drop.
+/// Returns the word for this in options and reports: auto, keep, mend, loose, soft, recompute, smooth or
+/// drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, mended, picked, fitted, smoothed,
-/// flat, smooth or dropped.
+/// Returns the word for this in reports: none, kept, mended, picked, softened, fitted,
+/// smoothed, flat, smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether a reduction keeps the normals, but those that are nearly alike at a vertex as one, and
@@ -61,18 +65,24 @@ inline bool are_joined(Normals_treatment treatment)
   return treatment == Normals_treatment::mended || treatment == Normals_treatment::fitted;
 }
 
+/// Returns whether corners of a result get others of the normals of their vertices (`pick_normals`).
+inline bool are_picked(Normals_treatment treatment)
+{
+  return treatment == Normals_treatment::picked || treatment == Normals_treatment::softened;
+}
+
 /// Returns whether a reduction fits the normals to the shading of the input.
 inline bool are_fitted(Normals_treatment treatment)
 {
   return treatment == Normals_treatment::fitted || treatment == Normals_treatment::smoothed ||
-         treatment == Normals_treatment::picked;
+         are_picked(treatment);
 }
 
 /// Returns whether a reduction keeps the normals that the prepared soup has, mended or fitted in the end.
 inline bool are_kept(Normals_treatment treatment)
 {
   return treatment == Normals_treatment::kept || are_joined(treatment) ||
-         treatment == Normals_treatment::smoothed;
+         treatment == Normals_treatment::smoothed || treatment == Normals_treatment::softened;
 }
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -87,6 +97,8 @@ bool has_flat_normals(const Triangle_soup& soup);
 /// `restore_normals` has to make them. For `Normals_treatment::smooth` the soup keeps one value for all
 /// corners between two hard edges at a vertex, so that hard edges, and no others, are lines. An edge is hard
 /// where the normals on its two sides differ by more than 1° at one of its ends.
+///
+/// For `Normals_treatment::softened`, it keeps those of `loosen_soft_lines`.
 ///
 /// Normals that the result is to get again, be they flat or picked, go to `taken`, unless it is null.
 ///
@@ -119,7 +131,8 @@ void join_near_normals(Triangle_soup& soup);
 /// Triangles then name the first of such vertices, and the others are unused. Corners keep their normals.
 /// Alike, bit for bit, must be positions in all poses (where −0 is 0), attributes, and texture coordinates if
 /// they are those of vertices; in a glTF scene the node and all accessors but NORMAL and TANGENT, those of
-/// morph targets included; and with `Normals_choice::loose`, for which tangents stay, the side of TANGENT.
+/// morph targets included; and with `Normals_choice::loose` or `soft`, for which tangents stay, the side of
+/// TANGENT. With `soft`, only vertices on soft lines become one.
 /// Where vertices of different tangents become one, the scene alone has tangents then.
 /// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
 /// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and
@@ -156,6 +169,9 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
 /// normal of its triangle, or to that of its back if the normals of the original point there on average.
 /// Triangle i is what is left of triangle `triangles[i]` of the original, and has its corners from the
 /// corners `corners[i]`, numbered as 3 × triangle + place.
+///
+/// If the original has normals itself, those of its corners that have one of them at a vertex are a *fan*. A
+/// corner then gets normals of its fan only, and keeps what it has where these differ by at most 0.1°.
 ///
 /// **Complexity** O(n) for n triangles, when the numbers of triangles at vertices are bounded.
 void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,

@@ -13,6 +13,7 @@
 #include <selvedge/drop_parts.h>
 #include <selvedge/normals.h>
 #include <selvedge/rounding.h>
+#include <selvedge/suited_normals.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -144,10 +145,16 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   drop_attributes(start.soup, header.dropped);
   if (header.normals == Logged_normals::dropped || header.normals == Logged_normals::smooth_shared)
     share_vertices_without_normals(start.soup);
+  else if (header.normals == Logged_normals::soft_shared)
+    share_vertices_without_normals(start.soup, Normals_choice::soft);
   const bool are_smooth =
       header.normals == Logged_normals::smooth || header.normals == Logged_normals::smooth_shared;
   if (are_smooth)
     smooth_normals(start.soup);
+  const bool are_soft =
+      header.normals == Logged_normals::soft || header.normals == Logged_normals::soft_shared;
+  if (are_soft)
+    loosen_soft_lines(start.soup);
   start.soup.poses.clear();
   Triangle_soup beside;
   beside.points = pose ? points_in_pose(obstacle, *pose) : obstacle.points;
@@ -161,7 +168,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   }
   if (header.normals == Logged_normals::joined)
     join_near_normals(start.soup);
-  else if (header.normals != Logged_normals::kept && !are_smooth)
+  else if (header.normals != Logged_normals::kept && !are_smooth && !are_soft)
     start.soup.normals = {};
   leave_out_needless(start);
   const std::vector<Index> before = first_at_position_of_both(start.soup.points, beside.points);

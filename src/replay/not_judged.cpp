@@ -47,6 +47,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
         {"normals", std::string("whether edges across which normals differ move only along themselves: the "
                                 "log says that normals are ") +
                         (normals == Logged_normals::dropped ? "dropped" : "ignored")});
+  else if (normals == Logged_normals::soft || normals == Logged_normals::soft_shared)
+    result.push_back({"normals", "whether soft edges, across which normals differ and which nobody sees as "
+                                 "edges, move only along themselves"});
   for (const std::string& name : verdict.header.dropped_parts.names)
     result.push_back({"drop_part", "the part '" + name + "': the log says that it is left out"});
   if (const double size = verdict.header.dropped_parts.smaller_than; size > 0)

@@ -42,6 +42,9 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   if (prepared.normals == Normals_treatment::smoothed)
     header.normals =
         header.normals == Logged_normals::dropped ? Logged_normals::smooth_shared : Logged_normals::smooth;
+  else if (prepared.normals == Normals_treatment::softened)
+    header.normals =
+        header.normals == Logged_normals::dropped ? Logged_normals::soft_shared : Logged_normals::soft;
   else if (are_joined(prepared.normals))
     header.normals = Logged_normals::joined;
   else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&

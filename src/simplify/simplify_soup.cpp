@@ -400,9 +400,8 @@ private:
     const Corner_values<3>& taken = m_prepared.taken_normals;
     if (m_prepared.normals == Normals_treatment::flat && !taken.empty())
       keep_flat_normals(result.soup, result.triangles, original, taken);
-    const bool are_picked = m_prepared.normals == Normals_treatment::picked;
-    const Corner_values<3>& normals = are_picked ? taken : original.normals;
-    if (are_picked)
+    const Corner_values<3>& normals = are_picked(m_prepared.normals) ? taken : original.normals;
+    if (are_picked(m_prepared.normals))
       pick_normals(result.soup, result.triangles, left.corners, original, normals);
     if (m_prepared.normals == Normals_treatment::mended || are_fitted(m_prepared.normals))
       result.mended_normals = mend_normals(result.soup, result.triangles, original, normals);

@@ -9,6 +9,7 @@
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/normals.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <functional>
@@ -130,7 +131,8 @@ private:
   Sharing m_sharing;
 };
 
-std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
+// Makes triangles share vertices, of those that are asked; of all where `is_asked` is empty.
+std::size_t share_vertices(Triangle_soup& soup, Sharing sharing, const std::vector<char>& is_asked = {})
 {
   const std::equal_to<Index> are_equal;
   const std::vector<Index> normals = sharing == Sharing::flat
@@ -172,6 +174,10 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
     poll();
     if (normals[v] == s_no_number)
       continue;
+    if (!is_asked.empty() && !is_asked[v]) {
+      first[v] = v;
+      continue;
+    }
     Vertex_bytes bytes = bytes_of(v);
     std::vector<Shared_vertex>& alike = vertices[std::exchange(bytes.others, {})];
     const auto found = std::find_if(alike.begin(), alike.end(),
@@ -238,8 +244,11 @@ std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice c
 {
   const std::vector<Index_triple> before = soup.triangles;
   separate_poles(soup);
-  if (share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals) ==
-      0) {
+  const bool is_soft = choice == Normals_choice::soft;
+  const std::vector<char> is_asked = is_soft ? are_on_soft_lines(soup) : std::vector<char>();
+  const Sharing sharing =
+      is_soft || choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals;
+  if ((is_soft && is_asked.empty()) || share_vertices(soup, sharing, is_asked) == 0) {
     soup.triangles = before;
     return 0;
   }

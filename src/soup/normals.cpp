@@ -11,6 +11,7 @@
 #include "triangle_normals.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <array>
@@ -197,6 +198,8 @@ const char* name_of(Normals_choice choice)
     return "mend";
   case Normals_choice::loose:
     return "loose";
+  case Normals_choice::soft:
+    return "soft";
   case Normals_choice::recompute:
     return "recompute";
   case Normals_choice::smooth:
@@ -215,6 +218,8 @@ const char* name_of(Normals_treatment treatment)
     return "mended";
   case Normals_treatment::picked:
     return "picked";
+  case Normals_treatment::softened:
+    return "softened";
   case Normals_treatment::fitted:
     return "fitted";
   case Normals_treatment::smoothed:
@@ -262,6 +267,12 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
   if (choice == Normals_choice::keep)
     return Normals_treatment::kept;
   const bool is_flat = choice != Normals_choice::drop && has_flat_normals(soup);
+  if (choice == Normals_choice::soft && !is_flat) {
+    if (taken)
+      *taken = soup.normals;
+    loosen_soft_lines(soup);
+    return Normals_treatment::softened;
+  }
   if ((choice == Normals_choice::automatic || choice == Normals_choice::mend) && !is_flat) {
     join_near_normals(soup);
     return choice == Normals_choice::mend ? Normals_treatment::mended : Normals_treatment::fitted;
@@ -281,7 +292,7 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 bool joins_vertices(Normals_choice choice)
 {
   return choice == Normals_choice::drop || choice == Normals_choice::loose ||
-         choice == Normals_choice::smooth;
+         choice == Normals_choice::soft || choice == Normals_choice::smooth;
 }
 
 void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
@@ -299,6 +310,12 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
   for (Index corner = corner_count; corner-- > 0;)
     by_vertex[--firsts[vertex_of(corner)]] = corner;
 
+  const Corner_values<3>& fans = original.normals;
+  const auto fan_of = [&](Index corner) {
+    return fans.empty() ? 0 : fans.of_triangle[corner / 3][corner % 3];
+  };
+  std::vector<Vector> values = normals.values;
+  values.insert(values.end(), result.normals.values.begin(), result.normals.values.end());
   std::vector<Index_triple> picked;
   for (Index i = 0; i < result.triangles.size(); ++i) {
     const Index t = triangles[i];
@@ -309,10 +326,19 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
     const double side = side_of(cosines(unit_normal(original, t), normals, t)) < 0 ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = vertex_of(corners[i][k]);
+      const Index fan = fan_of(corners[i][k]);
+      const auto is_like_fan = [&](Index corner) {
+        return fan_of(corner) != fan || are_near_normals(normals.values[number_at(corner)], fans.values[fan]);
+      };
+      if (!fans.empty() &&
+          std::all_of(by_vertex.begin() + firsts[v], by_vertex.begin() + firsts[v + 1], is_like_fan)) {
+        numbers[k] = Index(normals.values.size()) + result.normals.of_triangle[i][k];
+        continue;
+      }
       double highest = -std::numeric_limits<double>::infinity();
       for (Index j = firsts[v]; j < firsts[v + 1]; ++j) {
         const Index number = number_at(by_vertex[j]);
-        if (number == normals.missing)
+        if (number == normals.missing || fan_of(by_vertex[j]) != fan)
           continue;
         const double cosine = side * dot(front, unit(normals.values[number]));
         if (cosine > highest) {
@@ -322,7 +348,7 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
       }
     }
   }
-  result.normals = with_used(normals.values, std::move(picked), normals.missing);
+  result.normals = with_used(values, std::move(picked), normals.missing);
 }
 
 bool are_near_normals(const std::array<double, 3>& a, const std::array<double, 3>& b)

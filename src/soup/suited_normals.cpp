@@ -13,16 +13,20 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
-// Decides whether the lines that normals make are worth their faces.
+// Decides which of the lines that normals make are worth their faces.
 
 namespace selvedge {
 namespace {
 
 using internal::dot;
 using internal::Edge_side;
+using shading::add;
+using shading::angle_at;
 using shading::difference;
+using shading::stored;
 using shading::unit;
 using shading::Vector;
 
@@ -75,12 +79,6 @@ public:
       ++m_edges_at[a.low];
       ++m_edges_at[a.high];
     });
-  }
-
-  bool are_soft()
-  {
-    if (m_lines.empty())
-      return false;
     for (const Line& line : m_lines) {
       Network& network = m_networks[m_sets.find(line.vertex)];
       network.length += line.length;
@@ -93,6 +91,25 @@ public:
         ++network.vertices;
         network.inner_vertices += m_edges_at[v] == 2;
       }
+  }
+
+  // Whether each vertex of the soup is on a soft line; empty if none is.
+  std::vector<char> are_on_soft_lines()
+  {
+    std::vector<char> result;
+    for (std::size_t v = 0; v < m_positions.size(); ++v)
+      if (const Index p = m_positions[v]; m_edges_at[p] > 0 && !m_networks[m_sets.find(p)].is_hard()) {
+        result.resize(m_positions.size(), false);
+        result[v] = true;
+      }
+    return result;
+  }
+
+  // Whether there are lines, and hardly any is hard.
+  bool are_soft() const
+  {
+    if (m_lines.empty())
+      return false;
     double length = 0, hard = 0;
     for (const Network& network : m_networks) {
       length += network.length;
@@ -169,15 +186,56 @@ private:
   std::vector<Line> m_lines;
 };
 
+// Whether normals can make lines: every corner has one, and they are not those of the faces.
+bool may_have_lines(const Triangle_soup& soup)
+{
+  if (soup.normals.empty() || soup.normals.missing || has_flat_normals(soup))
+    return false;
+  Cancellation_scope::check();
+  return true;
+}
+
 } // namespace
 
 Normals_choice suited_to(const Triangle_soup& soup, Normals_choice choice)
 {
-  if (choice != Normals_choice::automatic || soup.normals.empty() || soup.normals.missing ||
-      has_flat_normals(soup))
+  if (choice != Normals_choice::automatic || !may_have_lines(soup))
     return choice;
-  Cancellation_scope::check();
-  return Line_networks(soup).are_soft() ? Normals_choice::loose : choice;
+  Line_networks networks(soup);
+  if (networks.are_soft())
+    return Normals_choice::loose;
+  return networks.are_on_soft_lines().empty() ? choice : Normals_choice::soft;
+}
+
+std::vector<char> are_on_soft_lines(const Triangle_soup& soup)
+{
+  return may_have_lines(soup) ? Line_networks(soup).are_on_soft_lines() : std::vector<char>();
+}
+
+void loosen_soft_lines(Triangle_soup& soup)
+{
+  const std::vector<char> is_soft = are_on_soft_lines(soup);
+  join_near_normals(soup);
+  if (is_soft.empty())
+    return;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  Corner_values<3>& normals = soup.normals;
+  const std::size_t first = normals.values.size();
+  std::vector<Index> numbers(soup.points.size(), none); // of the means, by vertex
+  for (Index corner = 0; corner < 3 * soup.triangles.size(); ++corner) {
+    const Index v = soup.triangles[corner / 3][corner % 3];
+    if (!is_soft[v])
+      continue;
+    if (numbers[v] == none) {
+      numbers[v] = Index(normals.values.size());
+      normals.values.push_back({});
+    }
+    Index& number = normals.of_triangle[corner / 3][corner % 3];
+    add(normals.values[numbers[v]], unit(normals.values[number]), angle_at(soup, corner));
+    number = numbers[v];
+  }
+  for (std::size_t i = first; i < normals.values.size(); ++i)
+    normals.values[i] = stored(unit(normals.values[i]));
 }
 
 } // namespace selvedge

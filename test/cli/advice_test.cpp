@@ -128,6 +128,48 @@ TEST(App_simplify, NamesTheOptionsThatHelp)
   EXPECT_NE(helped.out.find("target 1,400 reached"), std::string::npos) << helped.out;
 }
 
+// Of five lines of normals across a sheet, two are soft: only the other three hold their vertices.
+TEST(App_simplify, LeavesSoftEdgesOutOfSeams)
+{
+  const Workspace folder;
+  const Index size = 12;
+  Triangle_soup soup = sheet(size, size);
+  for (const Index_triple& triangle : soup.triangles) {
+    double x = size;
+    for (const Index v : triangle)
+      x = std::min(x, soup.points[v].x());
+    for (const Index v : triangle)
+      soup.normals.values.push_back({int(x) % 4 < 2 ? 0. : x < 4 ? 0.1 : 5, 0.01 * soup.points[v].y(), 1});
+    const Index first = Index(soup.normals.values.size() - 3);
+    soup.normals.of_triangle.push_back({first, first + 1, first + 2});
+  }
+  for (const std::string kind : {"obj", "ply", "glb"}) {
+    const std::string in = folder / ("in." + kind), out = folder / ("out." + kind), log = folder / "log",
+                      report = folder / "report.json";
+    write_mesh(in, soup);
+    const auto faces = [&](const std::string& normals) {
+      const App_result result = run_app({"simplify", in, "-o", out, "--faces", "8", "--normals", normals,
+                                         "--report", report, "--log", log});
+      EXPECT_EQ(result.code, 0) << result.err;
+      const bool is_soft = normals == "auto";
+      EXPECT_EQ(result.out.find("hard edges: those that are too soft to be seen") != std::string::npos,
+                is_soft)
+          << result.out;
+      EXPECT_EQ(contents_of(log).find(kind == "obj" ? "\nnormals soft\n" : "\nnormals soft_shared\n") !=
+                    std::string::npos,
+                is_soft);
+      const nlohmann::json json = nlohmann::json::parse(contents_of(report));
+      EXPECT_EQ(json["output"]["normals"] == "softened", is_soft);
+      EXPECT_EQ(run_app({"verify", out, "--against", in}).code, 0);
+      EXPECT_EQ(run_app({"replay", in, log}).code, 0);
+      return json["faces"]["output"].get<int>();
+    };
+    EXPECT_EQ(faces("auto"), 8) << kind;
+    EXPECT_GE(faces("mend"), 12) << kind;
+    EXPECT_LT(faces("loose"), 9) << kind;
+  }
+}
+
 // Where each vertex has one normal, leaving the normals out would join none of them.
 TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
 {

@@ -126,11 +126,20 @@ TEST(Shading, IsThatOfTheNearestNormalAtAVertex)
   result.triangles[0] = original.triangles[flat];
   corners[0] = corners[flat];
   result.normals = {};
-  pick_normals(result, triangles, corners, original, original.normals);
+  Triangle_soup without_normals = original;
+  without_normals.normals = {};
+  pick_normals(result, triangles, corners, without_normals, original.normals);
   for (Index t = 0; t < original.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_EQ(result.normals.values[result.normals.of_triangle[t][k]],
                 original.normals.values[original.normals.of_triangle[t == 0 ? flat : t][k]]);
+  // Fans of one normal leave a corner the one that it has.
+  result.normals = original.normals;
+  result.normals.of_triangle[0] = original.normals.of_triangle[1040];
+  pick_normals(result, triangles, corners, original, original.normals);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(result.normals.values[result.normals.of_triangle[0][k]],
+              original.normals.values[original.normals.of_triangle[1040][k]]);
 }
 
 // Normals that are off in the original are not mended for that.

@@ -12,6 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
 
 using namespace selvedge;
 using selvedge::test::sheet;
@@ -48,6 +52,21 @@ Triangle_soup tangled(double degrees)
   for (std::size_t t = 0; t < soup.triangles.size(); t += 2)
     for (const Index number : soup.normals.of_triangle[t])
       soup.normals.values[number][0] = tangent;
+  return soup;
+}
+
+// The lines from x = 6 on are hard, and those before are not.
+Triangle_soup creased_twice()
+{
+  Triangle_soup soup = creased(5);
+  const Triangle_soup hard = creased(80);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto is_before = [&](Index v) { return soup.points[v].x() < 6; };
+    const Index_triple &corners = soup.triangles[t], &numbers = soup.normals.of_triangle[t];
+    if (std::none_of(corners.begin(), corners.end(), is_before))
+      for (const Index number : numbers)
+        soup.normals.values[number] = hard.normals.values[number];
+  }
   return soup;
 }
 
@@ -94,6 +113,26 @@ TEST(Soft_lines, AreSeenThroughTrianglesWithTwoCornersAtOnePosition)
         soup.normals.of_triangle.push_back({numbers[k], numbers[(k + 1) % 3], numbers[k]});
       }
     EXPECT_EQ(are_lines_soft(soup), degrees == 5);
+  }
+}
+
+TEST(Soft_lines, AreLoosenedBesideHardOnes)
+{
+  Triangle_soup soup = creased_twice();
+  EXPECT_EQ(suited_to(soup, Normals_choice::automatic), Normals_choice::soft);
+  const std::vector<char> is_soft = are_on_soft_lines(soup);
+  ASSERT_EQ(is_soft.size(), soup.points.size());
+  for (Index v = 0; v < is_soft.size(); ++v)
+    EXPECT_EQ(is_soft[v] != 0, soup.points[v].x() == 2 || soup.points[v].x() == 4) << v;
+  loosen_soft_lines(soup);
+  std::set<std::pair<Index, Index>> normals; // of a vertex
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      normals.emplace(soup.triangles[t][k], soup.normals.of_triangle[t][k]);
+  for (Index v = 0; v < is_soft.size(); ++v) {
+    const auto first = normals.lower_bound({v, 0}), last = normals.lower_bound({v + 1, 0});
+    const double x = soup.points[v].x();
+    EXPECT_EQ(std::distance(first, last), x == 6 || x == 8 || x == 10 ? 2 : 1) << v;
   }
 }
 

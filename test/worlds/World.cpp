@@ -170,7 +170,7 @@ World read_world(const std::filesystem::path& folder)
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice :
        {Normals_choice::automatic, Normals_choice::keep, Normals_choice::mend, Normals_choice::loose,
-        Normals_choice::recompute, Normals_choice::smooth, Normals_choice::drop})
+        Normals_choice::soft, Normals_choice::recompute, Normals_choice::smooth, Normals_choice::drop})
     if (normals == name_of(choice))
       world.normals = choice;
   world.are_faces_oriented = json.value("orient", false);

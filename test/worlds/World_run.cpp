@@ -55,12 +55,12 @@ const char* file_name(const World& world)
 
 } // namespace
 
-Triangle_soup input_of(const World& world)
+Triangle_soup input_of(const World& world, bool are_vertices_joined)
 {
   Triangle_soup soup = world.soup;
   drop_parts(soup, world.dropped_parts);
   drop_attributes(soup, world.dropped);
-  if (joins_vertices(world.normals))
+  if (are_vertices_joined && joins_vertices(world.normals))
     share_vertices_without_normals(soup, world.normals);
   return soup;
 }
@@ -96,7 +96,7 @@ World_run run(const World& world)
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
   header.dropped_parts = world.dropped_parts;
   header.dropped = world.dropped;
-  if (joins_vertices(world.normals))
+  if (input_of(world).triangles != input_of(world, false).triangles)
     header.normals = Logged_normals::dropped;
   if (!world.obstacle.triangles.empty())
     header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
@@ -114,8 +114,7 @@ World_run run(const World& world)
     run.read_back = read_mesh(folder / file_name(world)).soup;
     if ((world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf) &&
         !world.is_sewn && !run.result.progression.empty() &&
-        run.prepared.normals != Normals_treatment::smooth &&
-        run.prepared.normals != Normals_treatment::picked) {
+        run.prepared.normals != Normals_treatment::smooth && !are_picked(run.prepared.normals)) {
       write_progressive(folder / "all.glb", run.prepared.soup, run.result.progression);
       const Progressive_mesh mesh = read_progressive(folder / "all.glb");
       run.last_level = level(mesh, mesh.step_count());

@@ -39,9 +39,9 @@ struct World_run
   }
 };
 
-/// Returns the mesh of a world as the app prepares it: with the vertices joined that differ in dropped
-/// normals alone.
-Triangle_soup input_of(const World& world);
+/// Returns the mesh of a world as the app prepares it: with the vertices joined, if asked, that differ in
+/// dropped normals alone.
+Triangle_soup input_of(const World& world, bool are_vertices_joined = true);
 
 /// Does what a world asks for, up to the file; without levels of detail. Throws what the library throws,
 /// except for `Input_error` from `prepare`.

@@ -225,12 +225,13 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
 {
   constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
   const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
-  const bool are_picked = run.prepared.normals == Normals_treatment::picked;
-  if (!are_picked && run.prepared.normals != Normals_treatment::fitted)
+  const bool is_picked = are_picked(run.prepared.normals);
+  const bool may_be_placed = run.prepared.normals != Normals_treatment::picked;
+  if (!is_picked && run.prepared.normals != Normals_treatment::fitted)
     return std::nullopt;
-  const Corner_values<3>& normals = are_picked ? run.prepared.taken_normals : original.normals;
+  const Corner_values<3>& normals = is_picked ? run.prepared.taken_normals : original.normals;
   std::map<Index, std::vector<Normal>> at_vertices;
-  if (are_picked)
+  if (is_picked)
     at_vertices = normals_at_vertices(original, normals);
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
@@ -257,12 +258,12 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
       const Normal now = normal_of(result.normals, i, k);
       const Index vertex = original.triangles[corner / 3][corner % 3];
       std::vector<Normal> old = {normal_of(normals, corner / 3, corner % 3)};
-      if (are_picked && !is_left) {
+      if (is_picked && !is_left) {
         old = at_vertices[vertex];
         if (old.empty())
           old.push_back(normal_of(normals, t, k));
       }
-      if (std::find(old.begin(), old.end(), now) != old.end() || (!are_picked && placed.count(vertex) > 0))
+      if (std::find(old.begin(), old.end(), now) != old.end() || (may_be_placed && placed.count(vertex) > 0))
         continue;
       if (is_as_it_was(run, i) && (stays[t] != 0 || changes.count(here) == 0))
         return broken("another normal, and nothing has changed");

@@ -184,6 +184,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["fitted_normals"];
   if (run.prepared.normals == Normals_treatment::picked && !run.collapses.empty())
     ++counts.options["picked_normals"];
+  if (run.prepared.normals == Normals_treatment::softened && !run.collapses.empty())
+    ++counts.options["softened_normals"];
   if (!run.prepared.tied.empty() && !run.collapses.empty())
     ++counts.options["ties"];
   if (!run.prepared.facing.empty() && !run.collapses.empty())

@@ -644,6 +644,8 @@ World random_world(std::uint64_t seed)
   if (world.seed % 8 == 6) // here as well
     world.normals = Normals_choice::smooth;
   world.normals = suited_to(world.soup, world.normals);
+  if (world.normals == Normals_choice::loose && world.seed % 4 == 1) // here as well
+    world.normals = Normals_choice::soft;
   if (joins_vertices(world.normals) && !world.soup.normals.empty() && world.seed % 4 != 3 &&
       !world.soup.scene) {
     Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it

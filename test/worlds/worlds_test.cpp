@@ -54,6 +54,7 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.options["mended_normals"], 0u);
   EXPECT_GT(counts.options["fitted_normals"], 0u);
   EXPECT_GT(counts.options["picked_normals"], 0u);
+  EXPECT_GT(counts.options["softened_normals"], 0u);
   EXPECT_GT(counts.twins, s_seeds);
   EXPECT_GT(counts.option_sets, s_seeds / 3);
 }
