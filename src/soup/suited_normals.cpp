@@ -167,7 +167,7 @@ private:
   Line line_of(const Edge_side& a, const Edge_side& b) const
   {
     const Vector along = difference(m_soup.points[a.low], m_soup.points[a.high]);
-    return {a.low, std::sqrt(dot(along, along)),
+    return {a.low, std::hypot(along[0], along[1], along[2]),
             (squared_chord(a.at_low, b.at_low) + squared_chord(a.at_high, b.at_high)) / 2};
   }
 

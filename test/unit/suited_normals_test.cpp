@@ -136,6 +136,17 @@ TEST(Soft_lines, AreLoosenedBesideHardOnes)
   }
 }
 
+TEST(Soft_lines, AreTheSameOnAMeshOfAnySize)
+{
+  for (const double size : {std::ldexp(1, 906), std::ldexp(1, -906)}) {
+    Triangle_soup soup = creased_twice();
+    const std::vector<char> is_soft = are_on_soft_lines(soup);
+    for (Point_3& p : soup.points)
+      p = Point_3(size * p.x(), size * p.y(), size * p.z());
+    EXPECT_EQ(are_on_soft_lines(soup), is_soft);
+  }
+}
+
 TEST(Soft_lines, AreNoneWhereTheTextureHasASeam)
 {
   Triangle_soup soup = creased(5);
