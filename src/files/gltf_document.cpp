@@ -116,14 +116,18 @@ struct Buffer_sources
 {
   std::string_view embedded;
   const std::filesystem::path* folder; // null when the document is not a file
+  std::string missing;                 // the first file that is not there
 };
 
 bool buffer_exists(const std::string& name, void* user)
 {
-  const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
+  Buffer_sources& sources = *static_cast<Buffer_sources*>(user);
   std::error_code error;
-  return name == s_embedded_buffer ||
-         (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
+  const bool exists = name == s_embedded_buffer ||
+                      (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
+  if (!exists && sources.missing.empty())
+    sources.missing = name;
+  return exists;
 }
 
 bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const std::string& name, void* user)
@@ -163,7 +167,7 @@ void load(const std::optional<std::string_view>& embedded, const std::filesystem
     if (document.json.contains(name))
       reduced[name] = without_extensions(document.json[name]);
   prepare_for_decoding(document.json, reduced);
-  Buffer_sources sources{embedded.value_or(""), folder};
+  Buffer_sources sources{embedded.value_or(""), folder, {}};
   const Json& buffers = member(reduced, "buffers");
   if (embedded && buffers.is_array() && !buffers.empty() && buffers[0].is_object() &&
       !buffers[0].contains("uri")) {
@@ -179,6 +183,9 @@ void load(const std::optional<std::string_view>& embedded, const std::filesystem
   const bool is_loaded =
       loader.LoadASCIIFromString(&document.model, &error, &warning, text.data(), unsigned(text.size()), "");
   if (!is_loaded || !error.empty()) {
+    if (!sources.missing.empty())
+      document.fail("the file with its numbers, " + sources.missing +
+                    ", is not beside it; put it there, or export the mesh as GLB, which is one file");
     std::replace(error.begin(), error.end(), '\n', ' ');
     error.erase(error.find_last_not_of(" .") + 1);
     document.fail("not a valid glTF file (" + error + "); export it again");

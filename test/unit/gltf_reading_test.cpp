@@ -36,7 +36,12 @@ TEST(Gltf, BuffersInFilesOfTheirOwnAreRead)
   write_bytes(folder / "the buffer.bin", document.bytes);
   EXPECT_EQ(read_mesh(folder / "a.gltf").soup.points, read_glb(everything()).soup.points);
   std::filesystem::remove(folder / "the buffer.bin");
-  EXPECT_THROW(read_mesh(folder / "a.gltf"), Input_error);
+  try {
+    read_mesh(folder / "a.gltf");
+    ADD_FAILURE() << "it is read without its numbers";
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("the buffer.bin, is not beside it"), std::string::npos);
+  }
 }
 
 TEST(Gltf, WorldPositionsAreTheDocumentedFormula)
