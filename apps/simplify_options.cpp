@@ -69,8 +69,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--lods", request.lods,
           "Ratios of several levels of detail, made in one run. Each is what a run for it alone gives "
-          "where that reaches its target. In the name of the output, {lod} stands for the number of the "
-          "level. A .glb or .gltf output "
+          "where that reaches its target. In the name of the output, {lod} stands for the number of the level. A .glb or .gltf output "
           "without {lod} holds all levels, from fine to coarse, by the extension MSFT_lod; 1 is the mesh as "
           "it came.")
       ->delimiter(',')
@@ -87,12 +86,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(how_far);
 
   command
-      .add_option(
-          "--placement", request.placement,
-          "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
-          "changes least. The latter comes nearer, takes more time, and interpolates the attributes of "
-          "vertices at new places; auto takes it in meshes of up to 500,000 faces, unless something "
-          "needs the vertices of the input (--pose, --progressive, levels in one glTF file, cells).")
+      .add_option("--placement", request.placement,
+                  "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
+                  "changes least. The latter comes nearer, takes more time, and interpolates the attributes of "
+                  "vertices at new places; auto takes it in meshes of up to 500,000 faces, unless something "
+                  "needs the vertices of the input (--pose, --progressive, levels in one glTF file, cells).")
       ->transform(one_of<Placement_choice>({{"auto", Placement_choice::automatic},
                                             {"vertices", Placement_choice::vertices},
                                             {"optimal", Placement_choice::optimal}}))
@@ -114,10 +112,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(parts);
   add_dropped_parts_options(
       command, request.dropped_parts,
-      "Part that is left out before the reduction, such as stitches that a texture shows. Targets are of the "
-      "other faces.",
-      "Leaves out likewise what is smaller than this, in the unit of the file, such as stitches and buttons: "
-      "faces that "
+      "Part that is left out before the reduction, such as stitches that a texture shows. Targets are of the other faces.",
+      "Leaves out likewise what is smaller than this, in the unit of the file, such as stitches and buttons: faces that "
       "common positions connect to nothing larger, by the diagonal of their bounding box.",
       parts);
   add_part_pairs_option(
@@ -198,9 +194,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option(
-          "--border-turn", options.max_border_turn,
-          "Largest turn of a border at a vertex that is removed, in degrees, where the corner is not low.")
+      .add_option("--border-turn", options.max_border_turn,
+                  "Largest turn of a border at a vertex that is removed, in degrees, where the corner is not low.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
@@ -280,14 +275,11 @@ void add_options(CLI::App& command, Simplify_request& request)
           "belong to another side of the surface, are made anew, and those that differ by at most 0.1 "
           "degrees at a vertex become one; loose is auto without seams where normals differ: each face first "
           "gets those normals of its vertices that suit it best; recompute makes all anew, with the hard "
-          "edges of the input; smooth makes smooth ones first, hard where faces turn by more than 60 "
-          "degrees, "
+          "edges of the input; smooth makes smooth ones first, hard where faces turn by more than 60 degrees, "
           "for scans that are shaded flat or have none; or leave them out, so that vertices of PLY and glTF "
           "that differ in nothing else are one. auto mends them, and then fits them to the shading of the "
           "input, which is truer on large faces than what is kept at their corners; it is loose where nine "
-          "tenths of the seams that normals make are too soft to be seen as edges, and elsewhere at those "
-          "that "
-          "are.")
+          "tenths of the seams that normals make are too soft to be seen as edges, and elsewhere at those that are.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"mend", Normals_choice::mend},
@@ -298,12 +290,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("auto|keep|mend|loose|recompute|smooth|drop")
       ->default_str("auto")
       ->group(seams);
-  add_attributes_option(
-      command, request.dropped_attributes,
-      "Leaves out an attribute of IN, and the seams that it makes: texture (with the "
-      "textures of glTF materials, and their images), colors, or a vertex attribute by the name that info "
-      "gives it. For textures that are baked anew, and those of which every face has its "
-      "own piece.")
+  add_attributes_option(command, request.dropped_attributes,
+                        "Leaves out an attribute of IN, and the seams that it makes: texture (with the "
+                        "textures of glTF materials, and their images), colors, or a vertex attribute by the name that info "
+                        "gives it. For textures that are baked anew, and those of which every face has its "
+                        "own piece.")
       ->group(seams);
 
   const char* const tuning = "Tuning";

@@ -114,15 +114,21 @@ private:
 
   void share_ancestors(const std::vector<Index>& triangles)
   {
-    Ancestors all;
+    std::set<std::shared_ptr<const Ancestors>> sets; // mostly one, of which all have a share already
     for (const Index t : triangles)
-      if (const Ancestors* const some = ancestors(t))
-        all.insert(all.end(), some->begin(), some->end());
-    if (all.empty())
+      if (const auto& some = m_ancestors[m_fronts[t]])
+        sets.insert(some);
+    if (sets.empty())
       return;
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    const auto shared = std::make_shared<Ancestors>(std::move(all));
+    std::shared_ptr<const Ancestors> shared = *sets.begin();
+    if (sets.size() > 1) {
+      Ancestors all;
+      for (const auto& some : sets)
+        all.insert(all.end(), some->begin(), some->end());
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      shared = std::make_shared<Ancestors>(std::move(all));
+    }
     for (const Index t : triangles)
       m_ancestors[t] = shared;
   }
