@@ -279,7 +279,7 @@ void add_options(CLI::App& command, Simplify_request& request)
           "for scans that are shaded flat or have none; or leave them out, so that vertices of PLY and glTF "
           "that differ in nothing else are one. auto mends them, and then fits them to the shading of the "
           "input, which is truer on large faces than what is kept at their corners; it is loose where nine "
-          "tenths of the seams that normals make are too soft to be seen as edges, and elsewhere at those that are.")
+          "tenths of the seams that normals make are too soft to be seen, and elsewhere at those that are.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"mend", Normals_choice::mend},
