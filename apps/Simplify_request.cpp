@@ -170,17 +170,15 @@ void check_progressive(const Simplify_request& request)
 /// Refuses options that would do nothing beside the others.
 void check_use(const Simplify_request& request)
 {
-  const std::vector<std::string> meshes{request.output, request.poses_output};
-  require_use_of_ascii(request.is_ascii, meshes, request.format);
-  require_use_of_polygons(request.are_polygons_split, meshes, request.format);
+  require_use_of_ascii(request.is_ascii, {request.output, request.poses_output}, request.format);
   if (request.faces_per_cluster && request.options.index != Face_index::clusters)
     throw Argument_error(
         "--cluster-size: the packed index has no clusters; leave it out, or give --index clusters");
-  if (!request.instances)
+  if (request.instances != Instances::shared)
     return;
   const bool is_from_gltf = is_gltf(format_of(request.input, request.format));
   if (!is_from_gltf || !is_gltf(format_of(request.output, request.format)))
-    throw Argument_error("--instances: only glTF has meshes in several places, and " +
+    throw Argument_error("--instances shared: only glTF has meshes in several places, and " +
                          (is_from_gltf ? "the output" : input_name(request.input)) +
                          " is of another format; leave it out");
 }
@@ -374,7 +372,7 @@ Json options_json(const Simplify_request& request)
           {"drop_smaller", request.dropped_parts.smaller_than},
           {"drop_attribute", request.dropped_attributes},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
-          {"polygons", request.are_polygons_split.value_or(false) ? "split" : "keep"},
+          {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", or_null(request.threads)},
           {"cells", request.is_in_cells},
           {"defects", name_of(defects_of(request))},

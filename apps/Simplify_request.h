@@ -61,7 +61,7 @@ struct Simplify_request
   bool is_target_required = false;
   bool is_quiet = false;
   bool is_ascii = false;
-  std::optional<bool> are_polygons_split;
+  bool are_polygons_split = false;
   std::optional<std::size_t> threads;
 };
 

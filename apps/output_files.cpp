@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <initializer_list>
 #include <string>
 #include <system_error>
 
@@ -141,7 +140,7 @@ std::vector<std::string> relocate(Triangle_soup& soup, Mesh_format format, const
   return relocate_references(soup, format, from.parent_path(), to.parent_path());
 }
 
-CLI::Option* add_polygons_option(CLI::App& command, std::optional<bool>& are_split)
+CLI::Option* add_polygons_option(CLI::App& command, bool& are_split)
 {
   return command
       .add_option("--polygons", are_split,
@@ -157,33 +156,15 @@ CLI::Option* add_ascii_option(CLI::App& command, bool& is_ascii)
   return command.add_flag("--ascii", is_ascii, "Write PLY and STL as text.");
 }
 
-namespace {
-
-bool is_any_in(const std::vector<std::string>& meshes, const std::optional<Mesh_format>& format,
-               std::initializer_list<Mesh_format> formats)
-{
-  return std::any_of(meshes.begin(), meshes.end(), [&](const std::string& name) {
-    return !name.empty() && !is_point_cache(name) &&
-           std::find(formats.begin(), formats.end(), format_of(name, format)) != formats.end();
-  });
-}
-
-} // namespace
-
 void require_use_of_ascii(bool is_ascii, const std::vector<std::string>& meshes,
                           const std::optional<Mesh_format>& format)
 {
-  if (is_ascii && !is_any_in(meshes, format, {Mesh_format::ply, Mesh_format::stl}))
-    throw Argument_error("--ascii: only PLY and STL have a choice of text, and no mesh is written as one; "
-                         "leave it out, or choose a name that ends in .ply or .stl");
-}
-
-void require_use_of_polygons(const std::optional<bool>& are_split, const std::vector<std::string>& meshes,
-                             const std::optional<Mesh_format>& format)
-{
-  if (are_split && !is_any_in(meshes, format, {Mesh_format::obj, Mesh_format::off, Mesh_format::ply}))
-    throw Argument_error("--polygons: only OBJ, OFF and PLY hold polygons, and no mesh is written as one; "
-                         "leave it out, or choose a name that ends in .obj, .off or .ply");
+  const auto is_text = [&](const std::string& name) {
+    return !name.empty() && !is_point_cache(name) && !is_gltf(format_of(name, format));
+  };
+  if (is_ascii && std::none_of(meshes.begin(), meshes.end(), is_text))
+    throw Argument_error("--ascii: no mesh is written that can be text, as PLY and STL can; leave it out, or "
+                         "choose a name that ends in .ply or .stl");
 }
 
 std::uintmax_t size_of_file(const fs::path& path)

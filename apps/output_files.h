@@ -59,20 +59,16 @@ bool is_standard_output(const std::filesystem::path& name);
 std::vector<std::string> relocate(Triangle_soup& soup, Mesh_format format, const std::filesystem::path& from,
                                   const std::filesystem::path& to);
 
-/// Adds `--polygons`; `are_split` says whether triangles are wanted.
-CLI::Option* add_polygons_option(CLI::App& command, std::optional<bool>& are_split);
+/// Adds `--polygons`; `are_split` says that triangles are wanted.
+CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 
 /// Adds `--ascii`.
 CLI::Option* add_ascii_option(CLI::App& command, bool& is_ascii);
 
-/// Throws `Argument_error` when `--ascii` is given and none of the meshes that a run writes is PLY or STL; an
-/// empty name stands for no mesh. `format` is that of "-".
+/// Throws `Argument_error` when `--ascii` is given and all meshes that a run writes are glTF; an empty name
+/// stands for no mesh. `format` is that of "-".
 void require_use_of_ascii(bool is_ascii, const std::vector<std::string>& meshes,
                           const std::optional<Mesh_format>& format);
-
-/// Does the same for `--polygons` and the formats that hold polygons.
-void require_use_of_polygons(const std::optional<bool>& are_split, const std::vector<std::string>& meshes,
-                             const std::optional<Mesh_format>& format);
 
 /// Returns the size of a file in bytes; 0 where there is none, or something else (a pipe).
 std::uintmax_t size_of_file(const std::filesystem::path& path);

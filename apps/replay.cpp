@@ -50,7 +50,7 @@ struct Replay_request
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
   bool is_ascii = false;
-  std::optional<bool> are_polygons_split;
+  bool are_polygons_split = false;
   bool is_json = false;
 };
 
@@ -298,7 +298,6 @@ void check(const Replay_request& request)
   check_streams({{"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}},
                 put_out, request.format);
   require_use_of_ascii(request.is_ascii, {request.output}, request.format);
-  require_use_of_polygons(request.are_polygons_split, {request.output}, request.format);
   if (!request.output.empty())
     format_of(request.output, request.format);
   check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
@@ -359,7 +358,7 @@ Exit_code run(const Replay_request& request)
     stream = in_memory(*stream);
   Mesh_input input(request.original, request.format);
   Mesh_file original = input.read();
-  if (request.are_polygons_split.value_or(false))
+  if (request.are_polygons_split)
     original.soup.polygons.clear();
   read_poses(request.poses, request.original, original.soup);
   if (!request.obstacle.empty()) {

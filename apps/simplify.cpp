@@ -231,7 +231,7 @@ private:
           "--lods: levels with vertices at new places (--placement optimal) cannot share the "
           "scene of a glTF file; write each to a file of its own, as with -o "
           "'jacket_{lod}.glb', or leave out --placement optimal");
-    if (m_request.are_polygons_split.value_or(false))
+    if (m_request.are_polygons_split)
       file.soup.polygons.clear();
     m_polygons = file.soup.polygons.size();
     if (!m_request.log.empty()) {

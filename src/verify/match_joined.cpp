@@ -277,7 +277,7 @@ std::vector<Group> grouped(const Matching& matching, Ownership& owners)
 void match_group(Matching& matching, const Ownership& owners, Group group, bool is_by_distance,
                  std::optional<Joined_borders>& joined_borders)
 {
-  auto& [of_original, of_result] = group;
+  std::vector<Index>&of_original = group.of_original, &of_result = group.of_result;
   const auto is_left = [&](Index o) { return matching.is_left_of_original(o); };
   const auto is_left_now = [&](Index r) { return matching.is_left_of_result(r); };
   if (of_original.empty() || of_result.empty() ||

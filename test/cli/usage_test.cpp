@@ -203,22 +203,17 @@ TEST(App_usage, RefusesWhatWouldDoNothing)
       run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--log", log, "--placement", "vertices"}).code,
       0);
   const std::size_t files = folder.files();
-  const char* const ascii = "--ascii: only PLY and STL";
-  const char* const polygons = "--polygons: only OBJ, OFF and PLY";
+  const char* const ascii = "--ascii: no mesh is written that can be text";
   const std::pair<std::vector<std::string>, const char*> idle[] = {
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50"}, "or give --index clusters"},
-      {{"simplify", in, "-o", out, "--ratio", "0.5", "--ascii"}, ascii},
       {{"simplify", in, "-o", glb, "--lods", "1,0.5", "--ascii"}, ascii},
-      {{"simplify", in, "-o", glb, "--ratio", "0.5", "--polygons", "keep"}, polygons},
       {{"simplify", in, "-o", glb, "--ratio", "0.5", "--instances", "shared"}, "in.obj is of another format"},
-      {{"simplify", scene, "-o", out, "--ratio", "0.5", "--instances", "apart"},
+      {{"simplify", scene, "-o", out, "--ratio", "0.5", "--instances", "shared"},
        "the output is of another format"},
       {{"replay", in, log, "--ascii"}, ascii},
-      {{"replay", in, log, "-o", out, "--ascii"}, ascii},
-      {{"replay", in, log, "--polygons", "split"}, polygons},
-      {{"replay", in, log, "-o", glb, "--polygons", "split"}, polygons},
-      {{"level", scene, "-o", out, "--ratio", "0.5", "--ascii"}, ascii},
-      {{"generate", "skirt", "-o", out, "--ascii"}, ascii},
+      {{"replay", in, log, "-o", glb, "--ascii"}, ascii},
+      {{"level", scene, "-o", glb, "--ratio", "0.5", "--ascii"}, ascii},
+      {{"generate", "skirt", "-o", glb, "--ascii"}, ascii},
       {{"generate", "--list", "-o", out}, "leave it out, or --output"},
       {{"generate", "--list", "skirt"}, "leave it out, or NAME"},
       {{"generate", "sheets", "-o", out, "--thickness", "0"},
@@ -228,7 +223,8 @@ TEST(App_usage, RefusesWhatWouldDoNothing)
   EXPECT_EQ(folder.files(), files);
   const std::vector<std::string> of_use[] = {
       {"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50", "--index", "clusters"},
-      {"simplify", in, "-o", out, "--ratio", "0.5", "--polygons", "keep"},
+      {"simplify", in, "-o", out, "--ratio", "0.5", "--ascii"},
+      {"simplify", scene, "-o", out, "--ratio", "0.5", "--instances", "apart"},
       {"simplify", in, "-o", folder / "out.ply.gz", "--ratio", "0.5", "--ascii"},
       {"simplify", in, "-o", out, "--ratio", "0.5", "--pose", in, "--poses-out", folder / "{pose}.stl",
        "--ascii"},
