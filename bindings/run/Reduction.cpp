@@ -11,12 +11,12 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/drop_parts.h>
+#include <selvedge/internal/Stopwatch.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 #include <selvedge/suited_normals.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -24,17 +24,8 @@
 #include <vector>
 
 namespace selvedge::bindings {
-namespace {
 
 using app::Json;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-} // namespace
 
 Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices)
     : m_options(request.json()), m_is_sewn(request.is_sewn),
@@ -120,7 +111,7 @@ void Reduction::take(std::vector<Simplified_soup> results)
   for (const Simplified_soup& result : results)
     all.push_back(&result);
   m_seconds.add(m_prepared, all);
-  const Clock::time_point start = Clock::now();
+  const internal::Stopwatch stopwatch;
   for (Simplified_soup& result : results) {
     Level& level = m_levels.emplace_back();
     level.result = std::move(result);
@@ -128,7 +119,7 @@ void Reduction::take(std::vector<Simplified_soup> results)
     if (m_error_search)
       level.distances = distances_anywhere(level.result.soup, m_prepared.soup);
   }
-  m_seconds["verify"] += seconds_since(start);
+  m_seconds["verify"] += stopwatch.seconds();
 }
 
 // As in the program: guards the poses in which a result is refused or too far off, or chooses another error.

@@ -103,15 +103,10 @@ std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prep
   const Triangle_soup& soup = prepared.soup;
   if (!soup.scene && soup.vertex_attributes.empty() && soup.triangle_attributes.empty() && soup.uvs.empty())
     return {};
-  std::vector<Index> fronts;           // without their doubles, across which no edge is one of two triangles
-  std::vector<Index_triple> triangles; // these, of positions
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
-    if (!prepared.fronts.empty() && prepared.fronts[t] != t)
-      continue;
-    fronts.push_back(t);
-    triangles.push_back(soup.triangles[t]);
-  }
-  triangles = in_positions(std::move(triangles), prepared.positions);
+  // With doubles, no edge would be one of two triangles.
+  const Fronts without_doubles = fronts_in_positions(soup.triangles, prepared.positions, prepared.fronts);
+  const std::vector<Index>& fronts = without_doubles.numbers;
+  const std::vector<Index_triple>& triangles = without_doubles.triangles;
   std::vector<const Attribute*> of_regions;
   for (const Attribute& attribute : soup.triangle_attributes)
     if (tells_regions_apart(attribute, fronts, triangles))

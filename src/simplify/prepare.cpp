@@ -517,16 +517,8 @@ private:
   // Nothing is sewn to the obstacle, so its triangles need not be asked.
   void orient()
   {
-    std::vector<Index_triple> triangles; // of positions; doubles are none
-    std::vector<Index> numbers;
-    for (Index t = 0; t < soup().triangles.size(); ++t) {
-      if (!m_prepared.fronts.empty() && m_prepared.fronts[t] != t)
-        continue;
-      numbers.push_back(t);
-      triangles.push_back(soup().triangles[t]);
-      for (Index& v : triangles.back())
-        v = m_prepared.positions[v];
-    }
+    const auto [numbers, triangles] =
+        fronts_in_positions(soup().triangles, m_prepared.positions, m_prepared.fronts);
     const std::vector<char> is_turned =
         turned_triangles(triangles, Index(3 * triangles.size()), Index(m_prepared.positions.size()));
     m_prepared.is_turned.assign(is_turned.empty() ? 0 : soup().triangles.size(), false);

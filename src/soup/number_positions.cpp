@@ -41,4 +41,17 @@ std::vector<Index_triple> in_positions(std::vector<Index_triple> triangles,
   return triangles;
 }
 
+Fronts fronts_in_positions(const std::vector<Index_triple>& triangles, const std::vector<Index>& positions,
+                           const std::vector<Index>& fronts)
+{
+  Fronts result;
+  for (Index t = 0; t < triangles.size(); ++t)
+    if (fronts.empty() || fronts[t] == t) {
+      result.numbers.push_back(t);
+      result.triangles.push_back(triangles[t]);
+    }
+  result.triangles = in_positions(std::move(result.triangles), positions);
+  return result;
+}
+
 } // namespace selvedge

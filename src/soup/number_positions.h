@@ -18,6 +18,17 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points);
 std::vector<Index_triple> in_positions(std::vector<Index_triple> triangles,
                                        const std::vector<Index>& positions);
 
+/// The triangles of a soup that are no doubles: their numbers, and the positions of their corners.
+struct Fronts
+{
+  std::vector<Index> numbers;
+  std::vector<Index_triple> triangles;
+};
+
+/// Returns the triangles that are no doubles. `fronts` is that of `Prepared_soup`, empty when none is one.
+Fronts fronts_in_positions(const std::vector<Index_triple>& triangles, const std::vector<Index>& positions,
+                           const std::vector<Index>& fronts);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_NUMBER_POSITIONS_H
