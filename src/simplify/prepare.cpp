@@ -212,6 +212,8 @@ private:
     return counts;
   }
 
+  std::string in_pose(std::size_t pose) const { return " in the pose '" + soup().poses[pose].name + "'"; }
+
   void refuse_if_any_offend()
   {
     std::vector<Offending_pair> pairs = offending_pairs(geometry_with_obstacle(soup(), obstacle()));
@@ -220,7 +222,7 @@ private:
     for (std::size_t pose = 0; pose < soup().poses.size(); ++pose) {
       pairs = offending_pairs(geometry_in_pose(soup(), obstacle(), pose));
       permit(pairs);
-      refuse_if_any(pairs, soup().triangles.size(), " in the pose '" + soup().poses[pose].name + "'");
+      refuse_if_any(pairs, soup().triangles.size(), in_pose(pose));
     }
   }
 
@@ -362,17 +364,15 @@ private:
     internal::for_each_pose(soup().poses.size(), [&](std::size_t pose) {
       m_prepared.offending_pairs_in_poses[pose] = offending_pairs(geometry_in_pose(soup(), {}, pose));
     });
-    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose) {
-      std::vector<Offending_pair>& pairs = m_prepared.offending_pairs_in_poses[pose];
+    for (std::vector<Offending_pair>& pairs : m_prepared.offending_pairs_in_poses)
       permit(pairs);
-      if (is_strict())
-        refuse_if_any(pairs, own_triangles, " in the pose '" + soup().poses[pose].name + "'");
+    if (is_strict() && m_positions_rounded.empty()) { // `round` refuses before rounding
+      refuse_if_any(m_prepared.offending_pairs, own_triangles);
+      for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
+        refuse_if_any(m_prepared.offending_pairs_in_poses[pose], own_triangles, in_pose(pose));
     }
-    if (m_prepared.rounding.coordinates == 0) {
-      if (is_strict())
-        refuse_if_any(m_prepared.offending_pairs, own_triangles);
+    if (m_prepared.rounding.coordinates == 0)
       return;
-    }
     const auto comes_before = [](const Offending_pair& a, const Offending_pair& b) {
       return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
     };

@@ -126,6 +126,11 @@ TEST(Prepare, StrictRefusesByTheNumbersOfTheInput)
   strict.round_to_float32 = true;
   EXPECT_EQ(refusal(close), "");
   EXPECT_GT(prepare(close, strict).pairs_by_rounding, 0u);
+  Triangle_soup in_pose = joined(sheet(2, 2, 1), sheet(2, 2, 2));
+  in_pose.poses = {{"close", close.points}};
+  EXPECT_EQ(refusal(in_pose), "");
+  in_pose.poses[0].points = joined(sheet(2, 2, third), sheet(2, 2, third)).points;
+  EXPECT_TRUE(contains(refusal(in_pose), "not embedded in the pose 'close': triangles 1 and 9 "));
 }
 
 TEST(Prepare, TrianglesWithTwoCornersAtOnePositionAreLeftOutAndCounted)
