@@ -26,8 +26,8 @@ struct Simplify_intent
   std::vector<std::string> locked;
 
   /// Vertices that do not move, by their numbers in the soup, each once or more often. All vertices at the
-  /// position of such a one stay with it. Faces are treated as with `locked`. A number that the soup does not
-  /// have throws `Argument_error`.
+  /// position of such a one, in all poses, stay with it. Faces are treated as with `locked`. A number that
+  /// the soup does not have throws `Argument_error`.
   std::vector<Index> locked_vertices;
 
   /// Parts of which no face changes, and which do not count for the target: it is for the other faces alone.

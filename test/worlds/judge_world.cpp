@@ -150,8 +150,14 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     if (is_held[t])
       for (const Index v : run.prepared.soup.triangles[t])
         complex.freeze_position(complex.position(v));
+  // A locked vertex that no triangle has holds those alone that are at its position in all poses.
+  std::set<Index> locked;
   for (const Index v : world.intent.locked_vertices)
-    complex.freeze_position(complex.position(v));
+    locked.insert(run.prepared.positions[v]);
+  for (const Index_triple& triangle : run.prepared.soup.triangles)
+    for (const Index v : triangle)
+      if (locked.count(run.prepared.positions[v]) > 0)
+        complex.freeze_position(complex.position(v));
   const auto turn_faces = [&] {
     for (Index t = 0; t < run.prepared.is_turned.size(); ++t)
       if (run.prepared.is_turned[t])
