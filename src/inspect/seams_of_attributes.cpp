@@ -5,14 +5,13 @@
 
 #include <selvedge/attributes.h>
 
-#include "soup/Corner_mesh.h"
 #include "soup/Gltf_scene.h"
 #include "soup/inner_edges.h"
 #include "soup/number_positions.h"
+#include "soup/regions.h"
 #include "soup/selection.h"
 
 #include <algorithm>
-#include <cstring>
 #include <initializer_list>
 #include <set>
 #include <utility>
@@ -34,8 +33,7 @@ bool is_seam_of(const Triangle_labels& labels, Index a, Index b)
 
 bool differ(const Attribute& attribute, Index a, Index b)
 {
-  const std::size_t size = row_size(attribute);
-  return std::memcmp(attribute.rows.data() + a * size, attribute.rows.data() + b * size, size) != 0;
+  return row_of(attribute, a) != row_of(attribute, b);
 }
 
 // Adds the names of the attributes that differ between two vertices, apart from those that corners have.
@@ -67,18 +65,6 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
         names.insert(column.name + " of morph targets");
 }
 
-// `triangles` has the positions at the corners of the triangles with these numbers.
-bool tells_regions_apart(const Attribute& attribute, const std::vector<Index>& numbers,
-                         const std::vector<Index_triple>& triangles)
-{
-  std::size_t edges = 0, differing = 0;
-  internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
-    ++edges;
-    differing += differ(attribute, numbers[a.at_low / 3], numbers[b.at_low / 3]);
-  });
-  return are_edges_around_regions(differing, edges);
-}
-
 // Of the attributes that differ across an edge, returns those that can be left out such that none differs any
 // more: one alone, or several that go together.
 std::set<std::string> sole_causes(const std::set<std::string>& names)
@@ -107,10 +93,7 @@ std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prep
   const Fronts without_doubles = fronts_in_positions(soup.triangles, prepared.positions, prepared.fronts);
   const std::vector<Index>& fronts = without_doubles.numbers;
   const std::vector<Index_triple>& triangles = without_doubles.triangles;
-  std::vector<const Attribute*> of_regions;
-  for (const Attribute& attribute : soup.triangle_attributes)
-    if (tells_regions_apart(attribute, fronts, triangles))
-      of_regions.push_back(&attribute);
+  const std::vector<const Attribute*> of_regions = attributes_of_regions(soup, number_positions(soup.points));
   const auto corner = [&](Index c) { return 3 * fronts[c / 3] + c % 3; };
   std::map<std::string, std::size_t> result;
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <string_view>
 #include <unordered_map>
 
 // The mesh of `replay`: what snaps and collapses do to faces, seams and corners, computed apart from the
@@ -275,7 +274,7 @@ std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index
   return result;
 }
 
-void Complex::find_seams()
+void Complex::find_seams(const std::vector<const Attribute*>& of_regions)
 {
   constexpr std::size_t least = 3; // edges at one position that are seams there alone, so that they stay so
   m_has_seams = true;
@@ -298,7 +297,7 @@ void Complex::find_seams()
         inner.push_back({f, other, k});
       }
     }
-  mark_regions(inner);
+  mark_regions(inner, of_regions);
   std::unordered_map<Index, std::size_t> counts; // of edges that are seams at one end only, by this position
   const auto is_one_ended = [](const std::array<bool, 2>& ends) { return ends[0] != ends[1]; };
   const auto one_end = [&](const Side& side) {
@@ -314,28 +313,16 @@ void Complex::find_seams()
       ends = {true, true};
 }
 
-// Marks the edges across which an attribute of triangles changes, if it does so across few: at most one in
-// sixteen. Then these are the outlines of regions.
-void Complex::mark_regions(const std::vector<Side>& inner)
+// Marks the edges across which one of these attributes of triangles changes.
+void Complex::mark_regions(const std::vector<Side>& inner, const std::vector<const Attribute*>& attributes)
 {
-  for (const Attribute& attribute : m_soup.triangle_attributes) {
-    const std::size_t size = row_size(attribute);
-    const auto row = [&](Index t) {
-      return std::string_view(reinterpret_cast<const char*>(attribute.rows.data()) + t * size, size);
-    };
-    const auto ply_count = [&](Index f) { return std::max(std::size_t(1), plies(f).size()); };
-    const auto ply = [&](Index f, std::size_t i) { return plies(f).empty() ? f : plies(f)[i].face; };
-    std::vector<Side> changing;
+  const auto ply_count = [&](Index f) { return std::max(std::size_t(1), plies(f).size()); };
+  const auto ply = [&](Index f, std::size_t i) { return plies(f).empty() ? f : plies(f)[i].face; };
+  for (const Attribute* attribute : attributes)
     for (const Side& side : inner)
       for (std::size_t i = 0; i < std::min(ply_count(side.face), ply_count(side.other)); ++i)
-        if (row(ply(side.face, i)) != row(ply(side.other, i))) {
-          changing.push_back(side);
-          break;
-        }
-    if (16 * changing.size() <= inner.size())
-      for (const Side& side : changing)
-        m_faces[side.face].is_seam[side.place] = {true, true};
-  }
+        if (row_of(*attribute, ply(side.face, i)) != row_of(*attribute, ply(side.other, i)))
+          m_faces[side.face].is_seam[side.place] = {true, true};
 }
 
 void Complex::snap(Index moved, Index kept)

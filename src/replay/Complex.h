@@ -105,9 +105,9 @@ public:
   /// Returns the positions or corners of a face in the order that they have in the soup.
   Index_triple in_order_of_soup(Index face, Index_triple of_face) const;
 
-  /// Marks the edges across which a vertex number, a label, a value of the soup's corners, or a region
-  /// changes; of three or more at one position that change there alone, only this end.
-  void find_seams();
+  /// Marks the edges across which a vertex number, a label, a value of the soup's corners, or an attribute
+  /// `of_regions` changes; of three or more at one position that change there alone, only this end.
+  void find_seams(const std::vector<const Attribute*>& of_regions);
   bool has_seams() const { return m_has_seams; }
 
   void move(Index position, const Coordinates& point) { m_points[position] = point; }
@@ -148,7 +148,7 @@ private:
     Index face, other; // on this side of an edge, and beyond
     std::size_t place; // of the side in the face
   };
-  void mark_regions(const std::vector<Side>& inner);
+  void mark_regions(const std::vector<Side>& inner, const std::vector<const Attribute*>& attributes);
   void carry_passed(Index removed, Index kept, const std::array<Coordinates, 2>& before);
 
   const Triangle_soup& m_soup;

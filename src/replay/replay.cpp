@@ -10,6 +10,8 @@
 #include "limits.h"
 #include "link.h"
 #include "snap.h"
+#include "soup/number_positions.h"
+#include "soup/regions.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -247,8 +249,19 @@ private:
       m_limits.set_diagonal(of_first.low, of_first.high);
     }
     m_mesh.set_doubles_aside();
-    m_complex.find_seams();
+    m_complex.find_seams(attributes_of_regions(m_start.soup, positions_in_first_pose()));
     m_motions.find_pieces();
+  }
+
+  // By vertex, after all snaps.
+  std::vector<Index> positions_in_first_pose() const
+  {
+    if (m_options.pose)
+      return number_positions(m_start.points_of_first_pose);
+    std::vector<Index> result(m_start.soup.points.size());
+    for (Index v = 0; v < result.size(); ++v)
+      result[v] = m_complex.position(v);
+    return result;
   }
 
   // ---- Locks, snaps and links

@@ -4,8 +4,8 @@
 #include "Corner_mesh.h"
 
 #include "Sewing.h"
-#include "inner_edges.h"
 #include "number_positions.h"
+#include "regions.h"
 #include "selection.h"
 
 #include <algorithm>
@@ -146,38 +146,13 @@ void Corner_mesh::find_regions()
 {
   if (m_soup.triangle_attributes.empty())
     return;
-  const std::vector<Index> positions = number_positions(m_soup.points);
-  std::vector<Index_triple> triangles; // of positions, by face
-  for (const auto& [a, b, c] : m_corners)
-    triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
-  std::vector<std::pair<Face, Face>> neighbours; // which run along their edge in opposite directions
-  internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
-    const auto is_ascending = [](const internal::Edge_side& side) {
-      return Sewing::next(side.at_low) == side.at_high;
-    };
-    if (is_ascending(a) != is_ascending(b))
-      neighbours.emplace_back(a.at_low / 3, b.at_low / 3);
-  });
-  const std::size_t triangle_count = m_soup.triangles.size();
   std::vector<Index> regions;
-  for (const Attribute& attribute : m_soup.triangle_attributes) {
-    const std::size_t size = row_size(attribute);
-    const auto row = [&](Index t) {
-      return std::string_view(reinterpret_cast<const char*>(attribute.rows.data()) + t * size, size);
-    };
-    std::size_t differing = 0;
-    for (const auto& [face, beyond] : neighbours) {
-      bool is_differing = false;
-      for (Index i = 0; i < (std::min)(ply_count(face), ply_count(beyond)); ++i)
-        is_differing |= row(triangle(face, i)) != row(triangle(beyond, i));
-      differing += is_differing;
-    }
-    if (!are_edges_around_regions(differing, neighbours.size()))
-      continue;
-    regions.resize(triangle_count, 0);
+  for (const Attribute* attribute : attributes_of_regions(m_soup, number_positions(m_soup.points))) {
+    regions.resize(m_soup.triangles.size(), 0);
     std::map<std::pair<Index, std::string_view>, Index> numbers;
-    for (Index t = 0; t < triangle_count; ++t)
-      regions[t] = numbers.emplace(std::make_pair(regions[t], row(t)), Index(numbers.size())).first->second;
+    for (Index t = 0; t < regions.size(); ++t)
+      regions[t] = numbers.emplace(std::make_pair(regions[t], row_of(*attribute, t)), Index(numbers.size()))
+                       .first->second;
   }
   if (!regions.empty())
     m_regions = std::make_shared<const std::vector<Index>>(std::move(regions));

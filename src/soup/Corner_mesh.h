@@ -19,13 +19,6 @@ namespace selvedge {
 
 class Sewing;
 
-/// Whether an attribute of triangles tells regions apart: it differs somewhere, and across at most one edge
-/// in sixteen.
-inline bool are_edges_around_regions(std::size_t differing, std::size_t edges)
-{
-  return differing > 0 && 16 * differing <= edges;
-}
-
 /// A mesh that knows for every corner of its faces which corner of a soup this now is.
 ///
 /// A collapse gives a moved corner the corner at the vertex with which it merges, taken from the contracted
@@ -186,10 +179,9 @@ protected:
   /// Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
   std::vector<Halfedge> build(const Sewing& sewing, const std::function<Point_3(Index vertex)>& point_of);
 
-  /// Finds the regions of triangles that attributes tell apart, such as the number of a material or a painted
-  /// colour. Called once, of the whole mesh. Edges are counted where two faces run along them in opposite
-  /// directions, as a replay counts them: in the points of the soup, so that vertices which only rounding has
-  /// brought together are one, though nothing is sewn there. Parts of this mesh have the same regions.
+  /// Finds the regions of triangles that attributes tell apart (`attributes_of_regions`), in the points of
+  /// the soup, so that vertices which only rounding has brought together are one, as for a replay, though
+  /// nothing is sewn there. Called once, of the whole mesh. Parts of this mesh have the same regions.
   void find_regions();
 
   /// Gives all plies at the target of h the corners that those beside `from` have at the target of `from`.

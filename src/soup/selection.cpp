@@ -142,6 +142,12 @@ std::size_t row_size(const Attribute& attribute)
   }
 }
 
+std::string_view row_of(const Attribute& attribute, Index row)
+{
+  const std::size_t size = row_size(attribute);
+  return {reinterpret_cast<const char*>(attribute.rows.data()) + row * size, size};
+}
+
 void append_row(std::vector<unsigned char>& rows, const Attribute& from, Index row)
 {
   const std::size_t size = row_size(from);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace selvedge {
@@ -42,6 +43,9 @@ void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& poin
 
 /// Returns the number of bytes in one row of an attribute.
 std::size_t row_size(const Attribute& attribute);
+
+/// Returns the bytes of one row of an attribute.
+std::string_view row_of(const Attribute& attribute, Index row);
 
 /// Appends a row of an attribute to rows of the same size.
 void append_row(std::vector<unsigned char>& rows, const Attribute& from, Index row);

@@ -369,6 +369,22 @@ TEST(AttributesOfFaces, RegionsAreThoseThatTheReplayFinds)
     EXPECT_TRUE(test::replay_text(soup, reduction.log).is_accepted()) << is_rounded;
     EXPECT_EQ(std::abs(painted_area(reduction.simplified.soup) - 10) < 1e-6, is_rounded);
   }
+  // Of several poses, the first one decides.
+  std::vector<Point_3> together = soup.points;
+  together[first + 3] = together[first + 1];
+  together[first + 4] = together[first];
+  for (const bool are_first_together : {false, true}) {
+    Triangle_soup posed = soup;
+    posed.points = are_first_together ? together : soup.points;
+    posed.poses = {{"pose", are_first_together ? soup.points : together}};
+    const test::Logged_reduction reduction = test::reduce_and_log(posed, test::to_ratio(0.1));
+    EXPECT_GT(reduction.simplified.report.collapses, 0u);
+    EXPECT_EQ(std::abs(painted_area(reduction.simplified.soup) - 10) < 1e-6, are_first_together);
+    Replay_options in_pose;
+    in_pose.pose = 0;
+    for (const Replay_options& options : {Replay_options(), in_pose})
+      EXPECT_TRUE(test::replay_text(posed, reduction.log, options).is_accepted()) << are_first_together;
+  }
 }
 
 TEST(AttributesOfFaces, ThatDifferNearlyEverywhereMakeNoLines)

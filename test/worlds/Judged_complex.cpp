@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -37,6 +39,34 @@ void add(Box& box, const Point_3& p)
     box.low[i] = std::min(box.low[i], p[i]);
     box.high[i] = std::max(box.high[i], p[i]);
   }
+}
+
+// Whether an attribute of one byte differs across at most one edge in sixteen of two faces, in the soup's own
+// pose. Triangles with the same positions are one face, which has the values of all.
+bool tells_regions_apart(const Triangle_soup& soup, const Attribute& attribute)
+{
+  using Face = std::set<std::array<double, 3>>;
+  std::map<Face, std::multiset<int>> values;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    Face face;
+    for (const Index v : soup.triangles[t])
+      face.insert(coordinates_of(soup.points[v]));
+    values[face].insert(int(attribute.rows[t]));
+  }
+  std::map<Face, std::vector<Face>> faces_at; // by edge
+  for (const auto& [face, of_triangles] : values)
+    for (const auto& corner : face) {
+      Face edge = face;
+      edge.erase(corner);
+      faces_at[edge].push_back(face);
+    }
+  std::size_t edges = 0, differing = 0;
+  for (const auto& [edge, faces] : faces_at)
+    if (faces.size() == 2) {
+      ++edges;
+      differing += values[faces[0]] != values[faces[1]];
+    }
+  return 16 * differing <= edges;
 }
 
 } // namespace
@@ -362,16 +392,12 @@ void Judged_complex::find_seams(const Triangle_soup& own)
       ends_alone[at].push_back(at == edge.ends.first ? edge.ends.second : edge.ends.first);
     }
   }
-  for (const Attribute& attribute : own.triangle_attributes) {
-    std::set<std::pair<Index, Index>> around_regions;
-    for (const Inner_edge& edge : edges)
-      for (std::size_t i = 0; i < std::min(edge.here.size(), edge.beyond.size()); ++i)
-        if (attribute.rows[edge.here[i]] != attribute.rows[edge.beyond[i]]) // which are of one byte
-          around_regions.insert(edge.ends);
-    if (16 * around_regions.size() <= edges.size())
-      for (const auto& [p, q] : around_regions)
-        add_seam(p, q);
-  }
+  for (const Attribute& attribute : own.triangle_attributes)
+    if (tells_regions_apart(own, attribute))
+      for (const Inner_edge& edge : edges)
+        for (std::size_t i = 0; i < std::min(edge.here.size(), edge.beyond.size()); ++i)
+          if (attribute.rows[edge.here[i]] != attribute.rows[edge.beyond[i]]) // which are of one byte
+            add_seam(edge.ends.first, edge.ends.second);
   for (auto& [at, others] : ends_alone) {
     others.erase(
         std::remove_if(others.begin(), others.end(), [&, at = at](Index q) { return is_seam(at, q); }),
