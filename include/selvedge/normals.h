@@ -171,7 +171,8 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
 /// corners `corners[i]`, numbered as 3 × triangle + place.
 ///
 /// If the original has normals itself, those of its corners that have one of them at a vertex are a *fan*. A
-/// corner then gets normals of its fan only, and keeps what it has where these differ by at most 0.1°.
+/// corner then gets normals of its fan only: the first of them where all differ from that of the fan by at
+/// most 0.1°, or what it has if that is no longer the fan's, as at a new place.
 ///
 /// **Complexity** O(n) for n triangles, when the numbers of triangles at vertices are bounded.
 void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,

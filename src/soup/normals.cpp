@@ -327,12 +327,16 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = vertex_of(corners[i][k]);
       const Index fan = fan_of(corners[i][k]);
+      const auto is_of_fan = [&](Index corner) { return fan_of(corner) == fan; };
       const auto is_like_fan = [&](Index corner) {
-        return fan_of(corner) != fan || are_near_normals(normals.values[number_at(corner)], fans.values[fan]);
+        return !is_of_fan(corner) || are_near_normals(normals.values[number_at(corner)], fans.values[fan]);
       };
-      if (!fans.empty() &&
-          std::all_of(by_vertex.begin() + firsts[v], by_vertex.begin() + firsts[v + 1], is_like_fan)) {
-        numbers[k] = Index(normals.values.size()) + result.normals.of_triangle[i][k];
+      const auto first = by_vertex.begin() + firsts[v], last = by_vertex.begin() + firsts[v + 1];
+      if (!fans.empty() && std::all_of(first, last, is_like_fan)) {
+        const Index kept = result.normals.of_triangle[i][k];
+        numbers[k] = result.normals.values[kept] == fans.values[fan]
+                         ? number_at(*std::find_if(first, last, is_of_fan))
+                         : Index(normals.values.size()) + kept; // at a new place
         continue;
       }
       double highest = -std::numeric_limits<double>::infinity();

@@ -10,9 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -56,9 +59,9 @@ Triangle_soup tangled(double degrees)
 }
 
 // The lines from x = 6 on are hard, and those before are not.
-Triangle_soup creased_twice()
+Triangle_soup creased_twice(double degrees = 5)
 {
-  Triangle_soup soup = creased(5);
+  Triangle_soup soup = creased(degrees);
   const Triangle_soup hard = creased(80);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     const auto is_before = [&](Index v) { return soup.points[v].x() < 6; };
@@ -133,6 +136,35 @@ TEST(Soft_lines, AreLoosenedBesideHardOnes)
     const auto first = normals.lower_bound({v, 0}), last = normals.lower_bound({v + 1, 0});
     const double x = soup.points[v].x();
     EXPECT_EQ(std::distance(first, last), x == 6 || x == 8 || x == 10 ? 2 : 1) << v;
+  }
+}
+
+// At an angle of 0.15 degrees, all normals of a vertex are near to their mean.
+TEST(Soft_lines, LeaveNoNormalThatTheFileDoesNotHave)
+{
+  for (const double degrees : {5.0, 0.15}) {
+    const Triangle_soup soup = creased_twice(degrees);
+    Triangle_soup original = soup;
+    loosen_soft_lines(original);
+    ASSERT_GT(original.normals.values.size(), soup.normals.values.size());
+    Triangle_soup result = original;
+    std::vector<Index> triangles(soup.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), Index(0));
+    std::map<Index, Index> last; // corner, by vertex
+    std::map<Index, std::set<std::array<double, 3>>> normals;
+    for (Index corner = 0; corner < 3 * soup.triangles.size(); ++corner) {
+      const Index vertex = soup.triangles[corner / 3][corner % 3];
+      last[vertex] = corner;
+      normals[vertex].insert(soup.normals.values[soup.normals.of_triangle[corner / 3][corner % 3]]);
+    }
+    std::vector<Index_triple> corners;
+    for (const auto& [a, b, c] : soup.triangles)
+      corners.push_back({last[a], last[b], last[c]});
+    pick_normals(result, triangles, corners, original, soup.normals);
+    for (Index t = 0; t < soup.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(
+            normals[soup.triangles[t][k]].count(result.normals.values[result.normals.of_triangle[t][k]]), 1u);
   }
 }
 
