@@ -30,7 +30,7 @@ namespace selvedge {
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
-///     normals kept|joined|ignored|dropped|smooth|smooth_shared|soft|soft_shared
+///     normals kept|joined|ignored|dropped|smooth|smooth_shared|soft|soft_shared|hard
 ///                                            once at most; kept where it is missing
 ///     drop_part PART                         any number of them
 ///     drop_smaller NUMBER                    once at most
@@ -58,10 +58,11 @@ namespace selvedge {
 /// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
 ///   texture coordinates or materials do. Normals that are nearly alike at a vertex may have become one
 ///   first (`join_near_normals`), or smooth ones may have taken the place of all (`smooth_normals`), or those
-///   of a vertex on a soft line may have become one (`loosen_soft_lines`, which follows from the input). They
-///   are ignored when the writer makes the normals anew. Where they are dropped, or smooth and shared,
-///   vertices that differ in nothing else are one (`share_vertices_without_normals`), before anything else is
-///   done; where they are soft and shared, those on soft lines.
+///   of a vertex on a soft line (`loosen_soft_lines`) or between two hard edges
+///   (`join_normals_between_hard_edges`) may have become one; all this follows from the input. They are
+///   ignored when the writer makes the normals anew and keeps no edge for them. Where they are dropped, or
+///   smooth and shared, vertices that differ in nothing else are one (`share_vertices_without_normals`),
+///   before anything else is done; where they are soft and shared, those on soft lines.
 /// - *drop_part*, *drop_smaller*: what the writer left out before anything else (`drop_parts`): all triangles
 ///   of a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the
 ///   unit of the file. PART is written as in *may_intersect*.
@@ -152,7 +153,8 @@ enum class Logged_normals {
   smooth,        ///< smooth ones have taken their place (`smooth_normals`), and are kept
   smooth_shared, ///< likewise, and vertices that differ in nothing but their normals are one
   soft,          ///< one is none where it is soft (`loosen_soft_lines`)
-  soft_shared    ///< likewise, and vertices on soft lines that differ in nothing but their normals are one
+  soft_shared,   ///< likewise, and vertices on soft lines that differ in nothing but their normals are one
+  hard           ///< an edge is a line where it is hard (`join_normals_between_hard_edges`)
 };
 
 /// The lines of a log before its first motion.

@@ -94,11 +94,9 @@ inline bool are_kept(Normals_treatment treatment)
 bool has_flat_normals(const Triangle_soup& soup);
 
 /// Takes the normals out of a soup that is to be reduced, as far as they are to be made anew, and returns how
-/// `restore_normals` has to make them. For `Normals_treatment::smooth` the soup keeps one value for all
-/// corners between two hard edges at a vertex, so that hard edges, and no others, are lines. An edge is hard
-/// where the normals on its two sides differ by more than 1° at one of its ends.
-///
-/// For `Normals_treatment::softened`, it keeps those of `loosen_soft_lines`.
+/// `restore_normals` has to make them. For `Normals_treatment::smooth` the soup keeps those of
+/// `join_normals_between_hard_edges`, so that hard edges, and no others, are lines; for
+/// `Normals_treatment::softened`, those of `loosen_soft_lines`.
 ///
 /// Normals that the result is to get again, be they flat or picked, go to `taken`, unless it is null.
 ///
@@ -123,6 +121,12 @@ bool joins_vertices(Normals_choice choice);
 ///
 /// **Complexity** O(n) for n triangles and bounded numbers of normals at a vertex.
 void join_near_normals(Triangle_soup& soup);
+
+/// Gives the corners between two hard edges around a vertex the normal of the first of them. An edge is hard
+/// where the normals on its two sides differ by more than 1° at one of its ends.
+///
+/// **Complexity** O(n log n) for n triangles.
+void join_normals_between_hard_edges(Triangle_soup& soup);
 
 /// Makes triangles share the vertices that differ in nothing but their normals, for a soup from a file that
 /// has one normal for each vertex (PLY, glTF). Such a file has several vertices where normals differ; without

@@ -21,9 +21,9 @@ namespace selvedge {
 namespace {
 
 constexpr std::string_view s_first_line = "selvedge-log 1";
-const std::vector<std::string> s_words_for_normals{"kept",    "joined",     "ignored",
-                                                   "dropped", "smooth",     "smooth_shared",
-                                                   "soft",    "soft_shared"}; // by Logged_normals
+const std::vector<std::string> s_words_for_normals{"kept",    "joined",      "ignored",
+                                                   "dropped", "smooth",      "smooth_shared",
+                                                   "soft",    "soft_shared", "hard"}; // by Logged_normals
 
 template <class Number>
 std::string text_of(Number number)

@@ -168,6 +168,8 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   }
   if (header.normals == Logged_normals::joined)
     join_near_normals(start.soup);
+  else if (header.normals == Logged_normals::hard)
+    join_normals_between_hard_edges(start.soup);
   else if (header.normals != Logged_normals::kept && !are_smooth && !are_soft)
     start.soup.normals = {};
   leave_out_needless(start);

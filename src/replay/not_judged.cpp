@@ -50,6 +50,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
   else if (normals == Logged_normals::soft || normals == Logged_normals::soft_shared)
     result.push_back({"normals", "whether soft edges, across which normals differ and which nobody sees as "
                                  "edges, move only along themselves"});
+  else if (normals == Logged_normals::hard)
+    result.push_back({"normals", "whether edges across which normals differ by at most 1° move only along "
+                                 "themselves: new normals take the place of these"});
   for (const std::string& name : verdict.header.dropped_parts.names)
     result.push_back({"drop_part", "the part '" + name + "': the log says that it is left out"});
   if (const double size = verdict.header.dropped_parts.smaller_than; size > 0)

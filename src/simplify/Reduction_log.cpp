@@ -47,6 +47,8 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
         header.normals == Logged_normals::dropped ? Logged_normals::soft_shared : Logged_normals::soft;
   else if (are_joined(prepared.normals))
     header.normals = Logged_normals::joined;
+  else if (prepared.normals == Normals_treatment::smooth)
+    header.normals = Logged_normals::hard;
   else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&
            prepared.normals != Normals_treatment::kept)
     header.normals = Logged_normals::ignored;

@@ -81,29 +81,6 @@ Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangle
   return unit(sum);
 }
 
-// Gives the corners between two hard edges at a vertex the value of the first of them.
-void join_fans(Triangle_soup& soup)
-{
-  Corner_values<3>& normals = soup.normals;
-  const auto value = [&](Index corner) { return normals.of_triangle[corner / 3][corner % 3]; };
-  const auto is_smooth_between = [&](Index a, Index b) {
-    return value(a) == value(b) ||
-           (value(a) != normals.missing && value(b) != normals.missing &&
-            is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
-  };
-  internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners
-  for_each_inner_edge(soup.triangles, [&](const Edge_side& a, const Edge_side& b) {
-    if (is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
-      fans.unite(a.at_low, b.at_low);
-      fans.unite(a.at_high, b.at_high);
-    }
-  });
-  std::vector<Index_triple> joined = normals.of_triangle;
-  for (Index corner = 0; corner < 3 * joined.size(); ++corner)
-    joined[corner / 3][corner % 3] = value(Index(fans.find(corner)));
-  normals.of_triangle = std::move(joined);
-}
-
 // Gives all corners of a face one new normal.
 void set_normal(Triangle_soup& soup, const std::vector<Index>& face, const Vector& normal)
 {
@@ -278,7 +255,7 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
     return choice == Normals_choice::mend ? Normals_treatment::mended : Normals_treatment::fitted;
   }
   if (choice == Normals_choice::recompute && !is_flat) {
-    join_fans(soup);
+    join_normals_between_hard_edges(soup);
     return Normals_treatment::smooth;
   }
   Corner_values<3> normals = std::exchange(soup.normals, {});
@@ -388,6 +365,28 @@ void join_near_normals(Triangle_soup& soup)
       }
       normal = entries[found].normal;
     }
+}
+
+void join_normals_between_hard_edges(Triangle_soup& soup)
+{
+  Corner_values<3>& normals = soup.normals;
+  const auto value = [&](Index corner) { return normals.of_triangle[corner / 3][corner % 3]; };
+  const auto is_smooth_between = [&](Index a, Index b) {
+    return value(a) == value(b) ||
+           (value(a) != normals.missing && value(b) != normals.missing &&
+            is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
+  };
+  internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners
+  for_each_inner_edge(soup.triangles, [&](const Edge_side& a, const Edge_side& b) {
+    if (is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
+      fans.unite(a.at_low, b.at_low);
+      fans.unite(a.at_high, b.at_high);
+    }
+  });
+  std::vector<Index_triple> joined = normals.of_triangle;
+  for (Index corner = 0; corner < 3 * joined.size(); ++corner)
+    joined[corner / 3][corner % 3] = value(Index(fans.find(corner)));
+  normals.of_triangle = std::move(joined);
 }
 
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,

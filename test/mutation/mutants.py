@@ -1551,8 +1551,13 @@ group(
      "a number of a triangle is taken for that of a face"),
 )
 
+group("src/soup/regions.cpp", ("attributes_test",),
+      ("if (differing > 0 && s_edges_for_one_that_differs * differing <= neighbours.size())", "if (differing > 0)", "a value that is another on each face makes lines"))
+group("src/replay/replay.cpp", ("attributes_test",),
+      ("      return number_positions(m_start.points_of_first_pose);", "      return number_positions(m_start.soup.points);", "regions are others in each pose"))
+group("src/soup/normals.cpp", ("suited_normals_test",),
+      ("result.normals.values[kept] == fans.values[fan]", "false", "means of normals are left at soft lines"))
 group("src/soup/Corner_mesh.cpp", ("attributes_test",),
-      ("!are_edges_around_regions(differing, neighbours.size())", "differing == 0", "a value that is another on each face makes lines"),
       ("m_regions && (*m_regions)[a / 3] != (*m_regions)[b / 3]", "false", "painted regions lose their outlines"))
 
 group("src/verify/match_by_vertices.cpp", ("verify_match_pieces_test",),

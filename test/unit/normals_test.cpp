@@ -315,6 +315,30 @@ TEST(Normals, AreMadeAnewBetweenHardEdges)
             soup.triangles.size() / 2);
 }
 
+TEST(Normals, AReplayFindsTheHardEdgesBetweenThoseMadeAnew)
+{
+  const auto log_of = [](const Triangle_soup& soup, Normals_choice choice) {
+    Prepare_options options;
+    options.normals = choice;
+    return reduce_and_log(soup, to_ratio(0.1), options).log;
+  };
+  const auto with = [](std::string log, const std::string& word, const std::string& other) {
+    const std::size_t at = log.find("normals " + word);
+    return at == std::string::npos ? "" : log.replace(at + 8, word.size(), other);
+  };
+  const Triangle_soup soup = folded_sheet();
+  const std::string log = log_of(soup, Normals_choice::recompute);
+  EXPECT_TRUE(replay_text(soup, log).is_accepted());
+  EXPECT_FALSE(replay_text(soup, with(log, "hard", "kept")).is_accepted()) << "noise makes lines, too";
+  // In a plane, nothing but the hard edge holds its vertices.
+  Triangle_soup plane = folded_sheet();
+  plane.points = sheet(20, 10).points;
+  EXPECT_TRUE(replay_text(plane, log_of(plane, Normals_choice::recompute)).is_accepted());
+  const std::string ignored = with(log_of(plane, Normals_choice::drop), "ignored", "hard");
+  ASSERT_NE(ignored, "");
+  EXPECT_FALSE(replay_text(plane, ignored).is_accepted());
+}
+
 TEST(Normals, MadeAnewAreFloats)
 {
   // GCC 12 removes a conversion to float and straight back, of two of three numbers.
