@@ -155,7 +155,7 @@ private:
     if (joined == 0)
       return;
     file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
-    m_log_header.normals = Logged_normals::dropped;
+    m_log_header.normals = shared_normals(m_normals);
   }
 
   void say_what_poses_cost(const Triangle_soup& soup)

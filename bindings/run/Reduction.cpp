@@ -39,15 +39,15 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
     throw Argument_error("key_poses: there are no further poses; give poses, or leave it out");
   const app::Thread_limit limit(request.threads);
   Log_header header;
-  const Normals_choice normals = suited_to(input, request.prepare.normals);
-  if (has_normals_of_vertices && joins_vertices(normals) &&
-      share_vertices_without_normals(input, normals) > 0)
-    header.normals = Logged_normals::dropped;
   const Log_numbering numbering(input, false);
   header.vertices = input.points.size();
   header.triangles = input.triangles.size();
   header.dropped_parts = request.dropped_parts;
   m_numbers = drop_parts(input, request.dropped_parts).triangles;
+  const Normals_choice normals = suited_to(input, request.prepare.normals);
+  if (has_normals_of_vertices && joins_vertices(normals) &&
+      share_vertices_without_normals(input, normals) > 0)
+    header.normals = shared_normals(normals);
   m_input_triangles = input.triangles;
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
   if (!request.obstacle.triangles.empty())

@@ -7,6 +7,7 @@
 #include <selvedge/Reduction_limits.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/drop_parts.h>
+#include <selvedge/normals.h>
 
 #include <array>
 #include <cstddef>
@@ -30,7 +31,7 @@ namespace selvedge {
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
-///     normals kept|joined|ignored|dropped|smooth|smooth_shared|soft|soft_shared|hard
+///     normals kept|joined|ignored|dropped|smooth|smooth_shared|soft|soft_shared|hard|loose_shared
 ///                                            once at most; kept where it is missing
 ///     drop_part PART                         any number of them
 ///     drop_smaller NUMBER                    once at most
@@ -62,7 +63,9 @@ namespace selvedge {
 ///   (`join_normals_between_hard_edges`) may have become one; all this follows from the input. They are
 ///   ignored when the writer makes the normals anew and keeps no edge for them. Where they are dropped, or
 ///   smooth and shared, vertices that differ in nothing else are one (`share_vertices_without_normals`),
-///   before anything else is done; where they are soft and shared, those on soft lines.
+///   before anything else is done; where they are soft and shared, those on soft lines. Where they are loose
+///   and shared, they are ignored, and such vertices are one. The side of TANGENT keeps vertices apart with
+///   soft and loose ones.
 /// - *drop_part*, *drop_smaller*: what the writer left out before anything else (`drop_parts`): all triangles
 ///   of a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the
 ///   unit of the file. PART is written as in *may_intersect*.
@@ -154,8 +157,13 @@ enum class Logged_normals {
   smooth_shared, ///< likewise, and vertices that differ in nothing but their normals are one
   soft,          ///< one is none where it is soft (`loosen_soft_lines`)
   soft_shared,   ///< likewise, and vertices on soft lines that differ in nothing but their normals are one
-  hard           ///< an edge is a line where it is hard (`join_normals_between_hard_edges`)
+  hard,          ///< an edge is a line where it is hard (`join_normals_between_hard_edges`)
+  loose_shared   ///< as dropped, but vertices on different sides of TANGENT are apart
 };
+
+/// Returns what a log says of the normals where `share_vertices_without_normals` has made vertices one, for a
+/// choice that joins them.
+Logged_normals shared_normals(Normals_choice choice);
 
 /// The lines of a log before its first motion.
 struct Log_header

@@ -21,9 +21,9 @@ namespace selvedge {
 namespace {
 
 constexpr std::string_view s_first_line = "selvedge-log 1";
-const std::vector<std::string> s_words_for_normals{"kept",    "joined",      "ignored",
-                                                   "dropped", "smooth",      "smooth_shared",
-                                                   "soft",    "soft_shared", "hard"}; // by Logged_normals
+const std::vector<std::string> s_words_for_normals{"kept",   "joined",        "ignored", "dropped",
+                                                   "smooth", "smooth_shared", "soft",    "soft_shared",
+                                                   "hard",   "loose_shared"}; // by Logged_normals
 
 template <class Number>
 std::string text_of(Number number)
@@ -55,6 +55,20 @@ std::string text_of_name(const std::string& name)
 }
 
 } // namespace
+
+Logged_normals shared_normals(Normals_choice choice)
+{
+  switch (choice) {
+  case Normals_choice::loose:
+    return Logged_normals::loose_shared;
+  case Normals_choice::soft:
+    return Logged_normals::soft_shared;
+  case Normals_choice::smooth:
+    return Logged_normals::smooth_shared;
+  default:
+    return Logged_normals::dropped;
+  }
+}
 
 std::string digest_of(const std::vector<Point_3>& places)
 {

@@ -143,10 +143,10 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   start.soup = original;
   start.numbers = drop_from(start.soup, header.dropped_parts);
   drop_attributes(start.soup, header.dropped);
-  if (header.normals == Logged_normals::dropped || header.normals == Logged_normals::smooth_shared)
-    share_vertices_without_normals(start.soup);
-  else if (header.normals == Logged_normals::soft_shared)
-    share_vertices_without_normals(start.soup, Normals_choice::soft);
+  for (const Normals_choice choice :
+       {Normals_choice::drop, Normals_choice::smooth, Normals_choice::soft, Normals_choice::loose})
+    if (header.normals == shared_normals(choice))
+      share_vertices_without_normals(start.soup, choice);
   const bool are_smooth =
       header.normals == Logged_normals::smooth || header.normals == Logged_normals::smooth_shared;
   if (are_smooth)

@@ -41,8 +41,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
   if (verdict.snaps > 0)
     result.push_back({"limits_of_snaps", "what snaps do to angles and shapes of triangles, and to borders: "
                                          "the weld distance is their only limit"});
-  if (const Logged_normals normals = verdict.header.normals;
-      normals == Logged_normals::ignored || normals == Logged_normals::dropped)
+  if (const Logged_normals normals = verdict.header.normals; normals == Logged_normals::ignored ||
+                                                             normals == Logged_normals::dropped ||
+                                                             normals == Logged_normals::loose_shared)
     result.push_back(
         {"normals", std::string("whether edges across which normals differ move only along themselves: the "
                                 "log says that normals are ") +

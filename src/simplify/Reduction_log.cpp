@@ -36,22 +36,31 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
   return result;
 }
 
+Logged_normals logged(Normals_treatment treatment)
+{
+  switch (treatment) {
+  case Normals_treatment::none:
+  case Normals_treatment::kept:
+    return Logged_normals::kept;
+  case Normals_treatment::mended:
+  case Normals_treatment::fitted:
+    return Logged_normals::joined;
+  case Normals_treatment::softened:
+    return Logged_normals::soft;
+  case Normals_treatment::smoothed:
+    return Logged_normals::smooth;
+  case Normals_treatment::smooth:
+    return Logged_normals::hard;
+  default:
+    return Logged_normals::ignored;
+  }
+}
+
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
   header.limits = limits_of(options);
-  if (prepared.normals == Normals_treatment::smoothed)
-    header.normals =
-        header.normals == Logged_normals::dropped ? Logged_normals::smooth_shared : Logged_normals::smooth;
-  else if (prepared.normals == Normals_treatment::softened)
-    header.normals =
-        header.normals == Logged_normals::dropped ? Logged_normals::soft_shared : Logged_normals::soft;
-  else if (are_joined(prepared.normals))
-    header.normals = Logged_normals::joined;
-  else if (prepared.normals == Normals_treatment::smooth)
-    header.normals = Logged_normals::hard;
-  else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&
-           prepared.normals != Normals_treatment::kept)
-    header.normals = Logged_normals::ignored;
+  if (header.normals == Logged_normals::kept)
+    header.normals = logged(prepared.normals);
   const auto& in_poses = prepared.offending_pairs_in_poses;
   header.may_pairs_descend =
       prepared.defects == Defects::descend &&

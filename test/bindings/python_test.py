@@ -432,6 +432,24 @@ class Simplify(unittest.TestCase):
         with self.assertRaisesRegex(selvedge.InputError, "no face would be left"):
             selvedge.simplify(points, triangles, ratio=0.5, drop_smaller=100)
 
+    def test_normals_are_treated_as_what_is_left_needs(self):
+        def strips(lean, z):  # side by side, with vertices of their own, whose normals lean to one side and the other
+            rows = 20
+            ends = [[(i + k, y, z) for y in range(rows + 1) for k in (0, 1)] for i in range(10)]
+            quads = [2 * y + 2 * (rows + 1) * i for i in range(10) for y in range(rows)]
+            points = np.array(ends, float).reshape(-1, 3)
+            leans = np.where(np.arange(len(points)) // (2 * rows + 2) % 2, lean, -lean)
+            normals = np.stack([leans, points[:, 1] / 100, np.ones(len(points))], 1)
+            return points, np.array([(v, v + 1, v + 2) for v in quads] + [(v + 1, v + 3, v + 2) for v in quads]), normals
+
+        (soft, triangles, leaning), (hard, _, leaning_far) = strips(0.05, 0), strips(0.8, 5)
+        groups = ["cloth"] * len(triangles) + ["stitch"] * len(triangles)
+        whole = np.vstack([soft, hard]), np.vstack([triangles, triangles + len(soft)])
+        for options, logged in (({"drop_part": "stitch"}, "loose_shared"), ({}, "soft_shared")):
+            normals = np.vstack([leaning, leaning_far])
+            result = selvedge.simplify(*whole, groups=groups, normal_vectors=normals, ratio=0.3, log=True, **options)
+            self.assertTrue(f"\nnormals {logged}\n" in result.log, result.log[:99])
+
     def test_locked_vertices_are_numbers_or_a_mask(self):
         mesh = layers(500)
         count = len(mesh.points)

@@ -5,6 +5,7 @@
 
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
+#include "support/logged_reduction.h"
 #include "support/reduction.h"
 #include "support/vertices_used.h"
 
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -371,6 +373,43 @@ TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
       EXPECT_EQ(seams.at("TANGENT"), along_middle - 1);
     }
   }
+}
+
+// The middle, where the texture is mirrored, is a seam in a replay where it was one for the writer of the
+// log.
+TEST(Gltf_tangents, HoldTheirSeamInAReplayOfLooseNormals)
+{
+  Triangle_soup creased = hills(Normals_treatment::smooth); // with a soft line at y = 10
+  const std::size_t count = creased.normals.values.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [x, y, z] = creased.normals.values[i];
+    const double length = std::sqrt(1.01);
+    creased.normals.values.push_back({x, (y + 0.1 * z) / length, (z - 0.1 * y) / length});
+  }
+  for (std::size_t t = creased.triangles.size() / 2; t < creased.triangles.size(); ++t)
+    for (Index& number : creased.normals.of_triangle[t])
+      number += Index(count);
+  const Triangle_soup file = read_glb(document_of_corners(creased, true)).soup;
+  const auto vertex_at = [&](double x, double y) {
+    const auto is_there = [&](const Point_3& p) { return p.x() == x && p.y() == y; };
+    return std::to_string(std::find_if(file.points.begin(), file.points.end(), is_there) -
+                          file.points.begin());
+  };
+  const auto is_accepted = [&](Normals_choice choice) {
+    Triangle_soup shared = file;
+    EXPECT_GT(share_vertices_without_normals(shared, choice), 0u);
+    Log_header header;
+    header.vertices = file.points.size();
+    header.triangles = file.triangles.size();
+    header.normals = shared_normals(choice);
+    header.limits.border_drift = 1e-3;
+    std::ostringstream stream;
+    Log_writer writer(stream, header);
+    stream << "c " << vertex_at(10, 5) << ' ' << vertex_at(11, 5) << "\nresult 1 798 -\n";
+    return replay_text(file, stream.str()).is_accepted();
+  };
+  EXPECT_FALSE(is_accepted(Normals_choice::loose));
+  EXPECT_TRUE(is_accepted(Normals_choice::drop)) << "a control: there, nothing is mirrored";
 }
 
 TEST(Gltf_tangents, AreLeftToTheSceneWhereVerticesHaveSeveral)

@@ -97,7 +97,7 @@ World_run run(const World& world)
   header.dropped_parts = world.dropped_parts;
   header.dropped = world.dropped;
   if (input_of(world).triangles != input_of(world, false).triangles)
-    header.normals = Logged_normals::dropped;
+    header.normals = shared_normals(world.normals);
   if (!world.obstacle.triangles.empty())
     header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
   std::ostringstream stream;
