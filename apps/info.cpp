@@ -246,6 +246,10 @@ void print_seams(const Inspection& mesh)
   }
   if (mesh.normals == Normals_treatment::flat)
     std::cout << " (normals are made anew, and make no seams)";
+  else if (mesh.normals == Normals_treatment::picked)
+    std::cout << " (normals make none, as hardly any edge is hard)";
+  else if (mesh.normals == Normals_treatment::softened)
+    std::cout << " (normals make none of edges that are too soft to be seen)";
   std::cout << "\nborders: ";
   if (mesh.border_edges == 0) {
     std::cout << "none\n";
@@ -412,7 +416,7 @@ Exit_code run(const Info_request& request)
   const std::optional<Small_pieces> small = small_pieces(file.soup);
   Inspection mesh;
   try {
-    mesh = inspect(std::move(file.soup));
+    mesh = inspect(std::move(file.soup), has_normals_of_vertices(file.format));
     mesh.unused_vertices -= file.notes.joined_vertices;
   } catch (const Input_error& error) {
     throw Input_error(input_name(request.mesh) + ": " + error.what());

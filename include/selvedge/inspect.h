@@ -146,8 +146,9 @@ struct Inspection
 /// corners, the first one counts. **Complexity** O(n log n).
 std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prepared);
 
-/// Inspects a mesh as `prepare` and `simplify_soup` would treat it with default options, and with
-/// `Normals_choice::automatic`.
+/// Inspects a mesh as the program would treat it with default options: with the choice of normals that suits
+/// it (`suited_to`), and with fewer vertices where that joins those of a file that has one normal for each
+/// vertex (`share_vertices_without_normals`).
 ///
 /// Throws `Input_error` when the mesh has no triangle, or when all have two corners at one position.
 ///
@@ -157,7 +158,7 @@ std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prep
 /// between parts of one surface, such as its folds, are not computed.
 ///
 /// **Complexity** O(n log n) as a rule; more where many triangles lie at nearly the least distance.
-Inspection inspect(Triangle_soup soup);
+Inspection inspect(Triangle_soup soup, bool has_normals_of_vertices = false);
 
 } // namespace selvedge
 

@@ -17,6 +17,7 @@
 #include "soup/first_alike.h"
 #include "soup/flat_shading.h"
 #include "soup/poles.h"
+#include "soup/selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,15 +109,6 @@ void refuse_what_is_no_mesh(std::string_view contents, Mesh_format format, const
   const bool is_text = format != Mesh_format::stl && format != Mesh_format::glb; // those may begin like this
   if ((is_text && (begins_with("\xff\xfe"sv) || begins_with("\xfe\xff"sv))) || begins_with("\xff\xfes\0"sv))
     throw Input_error(name + ": the text of the file is in UTF-16; save it in UTF-8 or ASCII");
-}
-
-std::size_t count_of_used_vertices(const Triangle_soup& soup)
-{
-  std::vector<char> is_used(soup.points.size(), false);
-  for (const Index_triple& triangle : soup.triangles)
-    for (const Index v : triangle)
-      is_used[v] = true;
-  return std::size_t(std::count(is_used.begin(), is_used.end(), true));
 }
 
 // PLY and glTF: connects the faces of a file that has several vertices at a place because of their normals.

@@ -7,11 +7,13 @@
 #include "soup/Sewn_mesh.h"
 #include "soup/flat_shading.h"
 #include "soup/number_positions.h"
+#include "soup/selection.h"
 #include "surface_distances.h"
 #include "verify/Diagonal.h"
 #include "verify/pieces.h"
 
 #include <selvedge/prepare.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -260,13 +262,19 @@ Contents contents_of(const Mesh_file& file)
   return contents;
 }
 
-Inspection inspect(Triangle_soup soup)
+Inspection inspect(Triangle_soup soup, bool has_normals_of_vertices)
 {
   Prepare_options options;
-  options.normals = Normals_choice::automatic;
+  options.normals = suited_to(soup, Normals_choice::automatic);
   options.open_seams = Open_seams::measure;
+  const std::size_t used = count_of_used_vertices(soup);
+  if (has_normals_of_vertices && joins_vertices(options.normals))
+    share_vertices_without_normals(soup, options.normals);
+  const std::size_t joined = used - count_of_used_vertices(soup);
   const Prepared_soup prepared = prepare(std::move(soup), options);
-  return Inspector(prepared).run();
+  Inspection result = Inspector(prepared).run();
+  result.unused_vertices -= joined;
+  return result;
 }
 
 } // namespace selvedge

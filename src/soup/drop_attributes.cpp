@@ -169,12 +169,8 @@ private:
       std::string dropped;
     };
     std::unordered_map<std::string, Shared_vertex> vertices; // by the bytes that stay
-    std::vector<char> is_used(m_soup.points.size(), false);
-    for (const Index_triple& triangle : m_soup.triangles)
-      for (const Index v : triangle)
-        is_used[v] = true;
-    const bool have_faces_own =
-        have_faces_own_vertices(m_soup, std::size_t(std::count(is_used.begin(), is_used.end(), true)));
+    const std::vector<char> is_used = are_used(m_soup);
+    const bool have_faces_own = have_faces_own_vertices(m_soup, count_of_used_vertices(m_soup));
     std::vector<Index> first(m_soup.points.size(), s_none);
     std::vector<char> is_shared(m_soup.points.size(), have_faces_own); // by first vertex
     Cancellation_poll poll;

@@ -171,6 +171,21 @@ void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles)
   soup.triangle_attributes = rows(soup.triangle_attributes, triangles);
 }
 
+std::vector<char> are_used(const Triangle_soup& soup)
+{
+  std::vector<char> result(soup.points.size(), false);
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      result[v] = true;
+  return result;
+}
+
+std::size_t count_of_used_vertices(const Triangle_soup& soup)
+{
+  const std::vector<char> used = are_used(soup);
+  return std::size_t(std::count(used.begin(), used.end(), char(true)));
+}
+
 void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& points_before)
 {
   const auto has_moved = [&](const Cut_polygon& polygon) {

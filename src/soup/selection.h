@@ -38,6 +38,12 @@ Corner_values<dimension> with_used(const std::vector<std::array<double, dimensio
 /// and values keep their numbers, used or not. A polygon stays one when all its triangles do.
 void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles);
 
+/// Returns whether each vertex is a corner of a triangle.
+std::vector<char> are_used(const Triangle_soup& soup);
+
+/// Returns how many vertices are.
+std::size_t count_of_used_vertices(const Triangle_soup& soup);
+
 /// Forgets the polygons with a vertex that is not at its place in `points_before`.
 void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& points_before);
 

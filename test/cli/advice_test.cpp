@@ -161,6 +161,12 @@ TEST(App_simplify, LeavesSoftEdgesOutOfSeams)
       EXPECT_NE(contents_of(log).find("\nnormals " + logged + '\n'), std::string::npos);
       const nlohmann::json json = nlohmann::json::parse(contents_of(report));
       EXPECT_EQ(json["output"]["normals"] == "softened", is_soft);
+      if (is_soft) {
+        const nlohmann::json info = nlohmann::json::parse(run_app({"info", in, "--json"}).out);
+        EXPECT_EQ(info["seams"]["normals"], "softened");
+        EXPECT_EQ(info["faces"]["fixed"], json["faces"]["fixed"]);
+        EXPECT_EQ(info["vertices"]["unused"], 0);
+      }
       EXPECT_EQ(run_app({"verify", out, "--against", in}).code, 0);
       EXPECT_EQ(run_app({"replay", in, log}).code, 0);
       return json["faces"]["output"].get<int>();
@@ -196,6 +202,9 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
     EXPECT_EQ(run_app({"verify", folder / "out.ply", "--against", folder / "in.ply"}).code, 0);
     EXPECT_EQ(run_app({"replay", folder / "in.ply", folder / "log"}).code, 0);
   }
+  const std::string info = run_app({"info", folder / "in.ply"}).out;
+  EXPECT_NE(info.find("seams: none (normals make none, as hardly any edge is hard)\n"), std::string::npos)
+      << info;
   for (const std::string name : {"out.glb", "out.ply"}) {
     const std::string dropped =
         run_app({"simplify", folder / "in.ply", "-o", folder / name, "--ratio", "0.1", "--normals", "drop"})
