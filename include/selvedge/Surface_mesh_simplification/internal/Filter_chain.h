@@ -46,7 +46,6 @@ class Filter_chain
   using Halfedge = typename Graph_traits::halfedge_descriptor;
   using Geom_traits =
       typename CGAL::Kernel_traits<typename boost::property_traits<VertexPointMap>::value_type>::Kernel;
-  using Constraints = Simplify_constraints<TriangleMesh>;
 
 public:
   using Face = typename Graph_traits::face_descriptor;
@@ -119,7 +118,7 @@ private:
 public:
   using Poses = Further_poses<TriangleMesh, Is_of_strip>;
 
-  /// **Preconditions** The mesh, the options and the observer outlive the chain.
+  /// **Preconditions** The mesh, the options, the constraints and the observer outlive the chain.
   Filter_chain(const Reduction_setup<TriangleMesh>& setup, const VertexPointMap& points,
                const Observer& observer)
       : m_mesh(setup.mesh), m_points(points), m_options(setup.options), m_rule(setup.border_rule(points)),
@@ -130,10 +129,7 @@ public:
         m_normal_change(m_options.max_normal_change, m_aspect_ratio),
         m_uv({m_options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change),
         m_tracked(m_mesh), m_error(setup.max_error, m_tracked, m_uv), m_poses(setup, {&m_mesh, m_rule}),
-        m_offending_pairs(setup.constraints.offending_pairs),
-        m_multiplicities(setup.constraints.multiplicities), m_may_intersect(setup.constraints.may_intersect),
-        m_obstacle(setup.constraints.uncounted_faces), m_diagonal(setup.diagonal),
-        m_max_error(setup.max_error)
+        m_constraints(setup.constraints), m_diagonal(setup.diagonal), m_max_error(setup.max_error)
   {
   }
 
@@ -162,13 +158,12 @@ public:
     if (!m_options.check_intersections)
       return;
     m_intersection.emplace(m_mesh, No_filter(), empty_index(), m_points);
-    m_intersection->exempt(m_offending_pairs, m_multiplicities);
-    m_intersection->let_intersect(m_may_intersect);
+    m_intersection->exempt(m_constraints.offending_pairs, m_constraints.multiplicities);
+    m_intersection->let_intersect(m_constraints.may_intersect);
     if (m_options.clearance)
-      m_intersection->keep_clearance(*m_options.clearance, m_obstacle);
+      m_intersection->keep_clearance(*m_options.clearance, m_constraints.uncounted_faces);
     m_visitor = m_intersection->visitor();
-    m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
-                        m_options.clearance, m_obstacle);
+    m_poses.build_index([this] { return empty_index(); }, m_constraints, m_options.clearance);
   }
 
   /// Whether all filters but the exact test allow a collapse.
@@ -335,10 +330,7 @@ private:
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
   Poses m_poses;
-  std::vector<std::pair<Face, Face>> m_offending_pairs;
-  decltype(Constraints::multiplicities) m_multiplicities;
-  decltype(Constraints::may_intersect) m_may_intersect;
-  decltype(Constraints::uncounted_faces) m_obstacle;
+  const Simplify_constraints<TriangleMesh>& m_constraints;
   double m_diagonal, m_max_error;
   std::optional<Intersection> m_intersection;
   std::optional<typename Intersection::Visitor> m_visitor; // of that filter

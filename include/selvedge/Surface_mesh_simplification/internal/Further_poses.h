@@ -19,7 +19,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -79,7 +78,6 @@ public:
       pose.quadrics.measure_by(setup.diagonal);
       if (setup.options.max_error)
         pose.tracked.begin(m_motions.points(i), setup.diagonal, setup.max_error);
-      m_offending_pairs.push_back(setup.constraints.poses[i].offending_pairs);
     }
   }
 
@@ -91,18 +89,17 @@ public:
 
   /// Begins the exact test; `make_index()` returns an empty index.
   template <class MakeIndex>
-  void build_index(const MakeIndex& make_index, const decltype(Constraints::multiplicities)& multiplicities,
-                   const decltype(Constraints::may_intersect)& may_intersect,
-                   const std::optional<double>& clearance, const std::vector<Face>& obstacle)
+  void build_index(const MakeIndex& make_index, const Constraints& constraints,
+                   const std::optional<double>& clearance)
   {
     if (empty())
       return;
     m_intersection.emplace(m_mesh, points(), No_filter(), make_index);
     for (std::size_t i = 0; i < m_poses.size(); ++i)
-      m_intersection->exempt(i, m_offending_pairs[i], multiplicities);
-    m_intersection->let_intersect(may_intersect);
+      m_intersection->exempt(i, constraints.poses[i].offending_pairs, constraints.multiplicities);
+    m_intersection->let_intersect(constraints.may_intersect);
     if (clearance)
-      m_intersection->keep_clearance(*clearance, obstacle);
+      m_intersection->keep_clearance(*clearance, constraints.uncounted_faces);
   }
 
   /// Whether the limits allow a collapse in every pose.
@@ -262,7 +259,6 @@ private:
   TriangleMesh& m_mesh;
   Motions m_motions;
   std::vector<Pose> m_poses;
-  std::vector<std::vector<std::pair<Face, Face>>> m_offending_pairs;
   std::optional<Intersection> m_intersection;
 };
 
