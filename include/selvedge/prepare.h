@@ -173,6 +173,9 @@ struct Prepared_soup
   /// What becomes of these pairs: `descend` or `freeze`.
   Defects defects = Defects::freeze;
 
+  /// Returns whether there are such pairs, in any pose, and they may descend.
+  bool may_pairs_descend() const;
+
   /// For every triangle, whether it is frozen: its vertices do not move. Frozen are triangles with a corner
   /// where only rounding has made positions equal, or that is coincident with others in some poses alone, and
   /// all triangles of the obstacle; unless pairs may descend, also the triangles of all offending pairs, so

@@ -61,11 +61,7 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   header.limits = limits_of(options);
   if (header.normals == Logged_normals::kept)
     header.normals = logged(prepared.normals);
-  const auto& in_poses = prepared.offending_pairs_in_poses;
-  header.may_pairs_descend =
-      prepared.defects == Defects::descend &&
-      (!prepared.offending_pairs.empty() ||
-       std::any_of(in_poses.begin(), in_poses.end(), [](const auto& pairs) { return !pairs.empty(); }));
+  header.may_pairs_descend = prepared.may_pairs_descend();
   header.may_intersect = prepared.may_intersect;
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;

@@ -537,6 +537,14 @@ private:
 
 } // namespace
 
+bool Prepared_soup::may_pairs_descend() const
+{
+  const auto has_some = [](const std::vector<Offending_pair>& pairs) { return !pairs.empty(); };
+  return defects == Defects::descend &&
+         (has_some(offending_pairs) ||
+          std::any_of(offending_pairs_in_poses.begin(), offending_pairs_in_poses.end(), has_some));
+}
+
 std::size_t Prepared_soup::turned_faces() const
 {
   return std::size_t(std::count(is_turned.begin(), is_turned.end(), char(true)));

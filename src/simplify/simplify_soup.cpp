@@ -150,16 +150,12 @@ private:
     m_working.count_refusals(part_kinds(soup));
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);
-    const auto has_some = [](const std::vector<Offending_pair>& pairs) { return !pairs.empty(); };
-    const bool do_pairs_descend = m_prepared.defects == Defects::descend &&
-                                  (has_some(m_prepared.offending_pairs) ||
-                                   std::any_of(m_prepared.offending_pairs_in_poses.begin(),
-                                               m_prepared.offending_pairs_in_poses.end(), has_some));
-    if (!do_pairs_descend && !m_options.is_history_kept)
+    const bool may_pairs_descend = m_prepared.may_pairs_descend();
+    if (!may_pairs_descend && !m_options.is_history_kept)
       m_working.on_collapse(m_options.on_collapse);
     else
-      m_working.on_collapse([this, do_pairs_descend](const Soup_collapse& collapse) {
-        if (do_pairs_descend)
+      m_working.on_collapse([this, may_pairs_descend](const Soup_collapse& collapse) {
+        if (may_pairs_descend)
           m_collapses.push_back(collapse);
         if (m_options.is_history_kept)
           add_to_history();
