@@ -429,7 +429,7 @@ void Html_report::add_pairs(const std::string& heading, bool is_fault,
       for (const Index v : owner.triangles[is_own ? t : t - soup.triangles.size()])
         corners.push_back(points_in(owner, pose)[v]);
     }
-    list.push_back(place_json(corners, describe(pairs[i])));
+    list.push_back(place_json(corners, describe(pairs[i], soup.triangles.size())));
   }
   add_places(heading, is_fault, pairs.size(), std::move(list), pose);
 }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -153,22 +152,6 @@ inline const char* name(Mismatch what)
     return "turned";
   }
   return "";
-}
-
-/// Describes a pair in words, with triangles counted from 1: those beyond `triangles` are of an obstacle.
-inline std::string describe(const Offending_pair& pair,
-                            std::size_t triangles = (std::numeric_limits<std::size_t>::max)())
-{
-  const auto number = [&](std::size_t triangle) {
-    return triangle < triangles ? std::to_string(triangle + 1)
-                                : std::to_string(triangle - triangles + 1) + " of the obstacle";
-  };
-  if (pair.first == pair.second)
-    return "triangle " + number(pair.first) + " is degenerate";
-  const bool is_of_obstacle = pair.second >= triangles;
-  return (is_of_obstacle ? "triangle " : "triangles ") + number(pair.first) + " and " +
-         (is_of_obstacle ? "triangle " : "") + number(pair.second) +
-         (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
 }
 
 } // namespace selvedge::app

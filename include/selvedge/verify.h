@@ -42,6 +42,9 @@ struct Offending_pair
   Offence offence = Offence::degenerate;
 };
 
+/// Describes a pair in words, with triangles counted from 1: those beyond `triangles` are of an obstacle.
+std::string describe(const Offending_pair& pair, std::size_t triangles);
+
 /// Returns all pairs that keep a soup from being embedded, sorted by `first`, then `second`; none when it is
 /// embedded.
 ///

@@ -34,27 +34,13 @@ bool has_two_corners_at_one_position(const Index_triple& triangle, const std::ve
   return a == b || b == c || c == a;
 }
 
-// Names a triangle by its number in its own file, from 1; those of the obstacle follow those of the mesh.
-std::string name_of(Index triangle, std::size_t own_triangles)
-{
-  return triangle < own_triangles ? std::to_string(triangle + 1)
-                                  : std::to_string(triangle - own_triangles + 1) + " of the obstacle";
-}
-
 void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_triangles,
                    const std::string& where = "")
 {
   if (pairs.empty())
     return;
-  const Offending_pair& pair = pairs.front();
-  const std::string first = name_of(pair.first, own_triangles);
-  const std::string what =
-      pair.offence == Offence::degenerate
-          ? "triangle " + first + " is degenerate"
-          : "triangles " + first + " and " + name_of(pair.second, own_triangles) +
-                (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
   throw Input_error(
-      "the mesh is not embedded" + where + ": " + what +
+      "the mesh is not embedded" + where + ": " + describe(pairs.front(), own_triangles) +
       (pairs.size() == 1 ? "" : ", and " + std::to_string(pairs.size() - 1) + " more such pairs") +
       "; repair it, or do not ask to refuse such a mesh");
 }

@@ -15,7 +15,9 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -221,6 +223,20 @@ private:
 };
 
 } // namespace
+
+std::string describe(const Offending_pair& pair, std::size_t triangles)
+{
+  const auto number = [&](std::size_t t) {
+    return std::to_string(t < triangles ? t + 1 : t - triangles + 1);
+  };
+  const std::string second = number(pair.second) + (pair.second < triangles ? "" : " of the obstacle");
+  if (pair.offence == Offence::degenerate)
+    return "triangle " + second + " is degenerate";
+  const bool is_of_both = pair.first < triangles && pair.second >= triangles;
+  return (is_of_both ? "triangle " : "triangles ") + number(pair.first) + " and " +
+         (is_of_both ? "triangle " : "") + second +
+         (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
+}
 
 std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 {

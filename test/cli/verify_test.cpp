@@ -156,8 +156,11 @@ TEST(App_verify, WhatTouchesAnObstacleIsNotVerified)
       << clear.out;
   const App_result torn = run_app({"verify", folder / "torn.obj", "--obstacle", folder / "body.obj"});
   EXPECT_EQ(torn.code, 1);
-  EXPECT_NE(torn.out.find("triangle 1 and triangle 1 of the obstacle intersect"), std::string::npos)
-      << torn.out;
+  const std::string pair = "triangle 1 and triangle 1 of the obstacle intersect";
+  EXPECT_NE(torn.out.find(pair), std::string::npos) << torn.out;
+  run_app({"simplify", folder / "torn.obj", "-o", folder / "out.obj", "--ratio", "1", "--obstacle",
+           folder / "body.obj", "--html", folder / "page.html"});
+  EXPECT_NE(contents_of(folder / "page.html").find(pair), std::string::npos);
   const auto against = [&](const char* original) {
     return run_app(
         {"verify", folder / "torn.obj", "--against", folder / original, "--obstacle", folder / "body.obj"});

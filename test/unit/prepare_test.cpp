@@ -116,9 +116,8 @@ TEST(Prepare, StrictRefusesByTheNumbersOfTheInput)
     twice.triangles.insert(twice.triangles.begin(), {0, 0, 1});
     EXPECT_TRUE(
         contains(refusal(joined(twice, crossing())), "triangle 1 is degenerate, and 1 more such pair"));
-    EXPECT_TRUE(
-        contains(refusal(fine, crossing()), "triangles 1 of the obstacle and 2 of the obstacle intersect;"));
-    EXPECT_TRUE(contains(refusal(fine, aside), " of the obstacle intersect, and "));
+    EXPECT_TRUE(contains(refusal(fine, crossing()), "triangles 1 and 2 of the obstacle intersect;"));
+    EXPECT_TRUE(contains(refusal(fine, aside), " and triangle 1 of the obstacle intersect, and "));
   }
   // What only rounding makes intersect is not the input's own.
   const double third = 1 / 3.0;
