@@ -6,6 +6,7 @@
 
 #include "text.h"
 
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 #include <selvedge/Triangle_soup.h>
 
 #include <CGAL/Bbox_3.h>
@@ -29,12 +30,10 @@ inline CGAL::Bbox_3 box_of(const std::vector<Point_3>& points, const std::vector
 /// Returns what suggests that something is in another unit than the mesh; else nothing.
 inline std::string doubt_of_unit(const CGAL::Bbox_3& of_mesh, const CGAL::Bbox_3& of_other)
 {
-  const auto size = [](const CGAL::Bbox_3& box) {
-    return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-  };
   // Metres and centimetres differ by 100, and a body is not much larger than what it wears.
   constexpr double doubtful = 30, countable = 1e15;
-  const double larger = size(of_other) / size(of_mesh), smaller = size(of_mesh) / size(of_other);
+  const double own = internal::diagonal_of(of_mesh), other = internal::diagonal_of(of_other);
+  const double larger = other / own, smaller = own / other;
   const auto times = [](double ratio) { return with_commas(static_cast<std::size_t>(std::round(ratio))); };
   if (larger >= doubtful && larger < countable)
     return times(larger) + " times as large as the mesh; is one of the two in another unit?";

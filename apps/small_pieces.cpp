@@ -5,26 +5,17 @@
 
 #include "text.h"
 
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 #include <selvedge/drop_parts.h>
 
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace selvedge::app {
-namespace {
-
-double diagonal_of(const CGAL::Bbox_3& box)
-{
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
-
-} // namespace
-
 std::optional<Small_pieces> small_pieces(const Triangle_soup& soup)
 {
   constexpr std::size_t least_count = 8;
@@ -44,7 +35,8 @@ std::optional<Small_pieces> small_pieces(const Triangle_soup& soup)
     if (size > largest_share * pieces.back().size)
       break;
     if (const double step = pieces[i].size / size;
-        step >= largest_step && diagonal_of(so_far) >= least_spread * diagonal_of(whole)) {
+        step >= largest_step &&
+        internal::diagonal_of(so_far) >= least_spread * internal::diagonal_of(whole)) {
       largest_step = step;
       count = i;
       triangles = triangles_so_far;

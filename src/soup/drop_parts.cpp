@@ -10,9 +10,9 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -39,7 +39,7 @@ Pieces pieces_by_positions(const Triangle_soup& soup)
       piece.box += soup.points[v].bbox();
   }
   for (auto& [number, piece] : result.pieces)
-    piece.size = std::hypot(piece.box.x_span(), piece.box.y_span(), piece.box.z_span());
+    piece.size = internal::diagonal_of(piece.box);
   return result;
 }
 

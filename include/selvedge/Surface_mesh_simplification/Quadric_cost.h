@@ -218,7 +218,7 @@ public:
     for (int i = 0; i < 3 && (box.min)(i) <= (box.max)(i); ++i)
       m_state->origin[std::size_t(i)] = 0.5 * (box.min)(i) + 0.5 * (box.max)(i);
     if (!(m_state->diagonal > 0))
-      m_state->diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+      m_state->diagonal = internal::diagonal_of(box);
     if (!(m_state->diagonal > 0))
       m_state->diagonal = 1; // all points are one
     m_state->unit = std::ldexp(1, std::ilogb(m_state->diagonal));
