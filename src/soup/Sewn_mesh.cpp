@@ -4,6 +4,7 @@
 #include "Sewn_mesh.h"
 
 #include "Sewing.h"
+#include "selection.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -199,10 +200,7 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
 
 void Sewn_mesh::note_vertices(const std::vector<Index>& positions)
 {
-  std::vector<char> is_used(soup().points.size(), false);
-  for (const Index_triple& corners_of_triangle : soup().triangles)
-    for (const Index i : corners_of_triangle)
-      is_used[i] = true;
+  const std::vector<char> is_used = are_used(soup());
   for (Index v = 0; v < is_used.size(); ++v) {
     m_notes.unused_vertices += !is_used[v];
     m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];

@@ -10,12 +10,12 @@
 #endif
 
 #include "soup/Working_mesh.h"
+#include "soup/selection.h"
 #include <selvedge/internal/Stopwatch.h>
 #include <selvedge/simplify.h>
 
 #include <meshoptimizer.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -84,15 +84,6 @@ inline Outcome run_libigl(const Triangle_soup& soup, std::size_t faces)
 }
 #endif
 
-inline std::size_t vertices_in_use(const Triangle_soup& soup)
-{
-  std::vector<char> is_used(soup.points.size());
-  for (const Index_triple& triangle : soup.triangles)
-    for (const Index vertex : triangle)
-      is_used[vertex] = true;
-  return static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true));
-}
-
 inline Outcome run_meshoptimizer(const Triangle_soup& soup, std::size_t faces)
 {
   std::vector<float> coordinates;
@@ -111,7 +102,7 @@ inline Outcome run_meshoptimizer(const Triangle_soup& soup, std::size_t faces)
   outcome.soup.points = soup.points; // unrounded
   for (std::size_t i = 0; i < left.size(); i += 3)
     outcome.soup.triangles.push_back({left[i], left[i + 1], left[i + 2]});
-  outcome.collapses = vertices_in_use(soup) - vertices_in_use(outcome.soup);
+  outcome.collapses = count_of_used_vertices(soup) - count_of_used_vertices(outcome.soup);
   return outcome;
 }
 

@@ -9,6 +9,7 @@
 #include "Table.h"
 #include "interleaved.h"
 #include "line_plot.h"
+#include "soup/selection.h"
 
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
@@ -16,7 +17,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <iostream>
@@ -92,19 +92,10 @@ Row row(const Column& c, double time_ratio, const std::string& range, const Row&
           outcome};
 }
 
-std::size_t vertices_in_use(const Triangle_soup& soup)
-{
-  std::vector<char> is_used(soup.points.size());
-  for (const Index_triple& triangle : soup.triangles)
-    for (const Index vertex : triangle)
-      is_used[vertex] = true;
-  return static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true));
-}
-
 Row measured_row(const Mesh& mesh, int runs)
 {
   const Triangle_soup& soup = mesh.prepared.soup;
-  Column column{mesh.name, soup.triangles.size(), vertices_in_use(soup), 0, {}, {}, 0};
+  Column column{mesh.name, soup.triangles.size(), count_of_used_vertices(soup), 0, {}, {}, 0};
   Row pairs(2);
   std::string outcome;
   const auto seconds = interleaved(

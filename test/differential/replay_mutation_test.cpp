@@ -263,10 +263,9 @@ TEST(Mutation, ATunnellingCollapsePutIntoALog)
   const Triangle_soup soup =
       joined(bare, mapped(sheet(3, 3), [](const Point_3& p) { return Point_3(p.x() + 9, p.y(), p.z()); }));
   const Index offset = Index(scene.soup.points.size());
-  Mutations mutations(soup, "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
-                                std::to_string(soup.triangles.size()) + " -\nc " +
-                                std::to_string(offset + 5) + ' ' + std::to_string(offset + 6) +
-                                "\nresult 1 " + std::to_string(soup.triangles.size() - 2) + " -\n");
+  Mutations mutations(soup, head_of(soup) + "c " + std::to_string(offset + 5) + ' ' +
+                                std::to_string(offset + 6) + "\nresult 1 " +
+                                std::to_string(soup.triangles.size() - 2) + " -\n");
   Mutations::counts.clear();
   std::vector<Step> steps = mutations.steps();
   mutations.compare(steps);

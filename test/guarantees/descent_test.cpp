@@ -44,11 +44,7 @@ Triangle_soup sheet_with_needle(double from, double to, double y)
 // Then it stands in one other face, or in two.
 const Triangle_soup s_narrow = sheet_with_needle(2.5, 2.7, 2.2), s_wide = sheet_with_needle(2.5, 2.95, 2.2);
 
-std::string head_of(const Triangle_soup& soup, const char* line = "defects descend\n")
-{
-  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
-         std::to_string(soup.triangles.size()) + " -\n" + line;
-}
+const std::string s_descend = "defects descend\n";
 
 TEST(Descent, ReachesWhatFreezingDoesNot)
 {
@@ -261,9 +257,9 @@ TEST(Replay, ADegenerateFaceMayBeContractedAndNotMoved)
 {
   Triangle_soup bent = sheet(6, 6);
   bent.points[16] = Point_3(3, 2.5, 0); // between vertices 17 and 24
-  EXPECT_TRUE(replay_text(bent, head_of(bent) + "c 16 17\nresult 1 70 -\n").is_accepted());
+  EXPECT_TRUE(replay_text(bent, head_of(bent, s_descend) + "c 16 17\nresult 1 70 -\n").is_accepted());
   for (const char* const moving : {"c 16 15\n", "c 16 17 3 2.25 0\n"}) {
-    const auto verdict = replay_text(bent, head_of(bent) + moving + "result 1 70 -\n");
+    const auto verdict = replay_text(bent, head_of(bent, s_descend) + moving + "result 1 70 -\n");
     ASSERT_EQ(verdict.violations.size(), 1u);
     EXPECT_EQ(verdict.violations[0].kind, Violation_kind::degenerate);
   }
@@ -271,7 +267,7 @@ TEST(Replay, ADegenerateFaceMayBeContractedAndNotMoved)
 
 TEST(Replay, PairsMayDescendFromFacesThatAreRemoved)
 {
-  EXPECT_TRUE(replay_text(s_narrow, head_of(s_narrow) + "c 16 17\nresult 1 71 -\n").is_accepted());
+  EXPECT_TRUE(replay_text(s_narrow, head_of(s_narrow, s_descend) + "c 16 17\nresult 1 71 -\n").is_accepted());
 }
 
 TEST(Replay, PairsMayNotDescendUnlessTheLogSaysSo)
@@ -285,7 +281,7 @@ TEST(Replay, PairsMayNotDescendUnlessTheLogSaysSo)
 
 TEST(Replay, PairsMayDescendButNotBecomeMore)
 {
-  const auto verdict = replay_text(s_wide, head_of(s_wide) + "c 16 17\nresult 1 71 -\n");
+  const auto verdict = replay_text(s_wide, head_of(s_wide, s_descend) + "c 16 17\nresult 1 71 -\n");
   ASSERT_EQ(verdict.violations.size(), 1u);
   EXPECT_EQ(verdict.violations[0].kind, Violation_kind::intersection);
   EXPECT_NE(verdict.violations[0].message.find("more pairs"), std::string::npos);
@@ -299,7 +295,7 @@ TEST(Replay, PairsMayDescendOnlyFromPairsThatOffended)
   Triangle_soup both = joined(s_narrow, second);
   both.points[16] = Point_3(2, 2, 0.5);
   ASSERT_EQ(offending_pairs(both).size(), 1u);
-  const auto verdict = replay_text(both, head_of(both) + "c 16 17\nresult 1 72 -\n");
+  const auto verdict = replay_text(both, head_of(both, s_descend) + "c 16 17\nresult 1 72 -\n");
   ASSERT_EQ(verdict.violations.size(), 1u);
   EXPECT_EQ(verdict.violations[0].kind, Violation_kind::tunnelling);
   EXPECT_EQ(verdict.violations[0].triangles.back(), 73u) << verdict.violations[0].message;
@@ -330,7 +326,7 @@ TEST(Log, StatesThePolicyForDefectsOnce)
   const Triangle_soup soup = sheet(2, 2);
   for (const char* const line : {"defects\n", "defects refuse\n", "defects descend\ndefects descend\n"})
     EXPECT_THROW(replay_text(soup, head_of(soup, line) + "result 0 8 -\n"), Input_error) << line;
-  EXPECT_TRUE(replay_text(soup, head_of(soup) + "result 0 8 -\n").is_accepted());
+  EXPECT_TRUE(replay_text(soup, head_of(soup, s_descend) + "result 0 8 -\n").is_accepted());
 }
 
 } // namespace

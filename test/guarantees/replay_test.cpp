@@ -84,9 +84,7 @@ TEST(Replay, FacesBeyondASeamThatIsLeftGoAlong)
         soup.uvs.of_triangle.back().fill(Index(soup.uvs.values.size() - 1));
       }
     const std::string step = are_vertices_apart ? "c 8 7" : "c 12 11";
-    const std::string log = "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + " 32 -\n" + step +
-                            "\nresult 1 30 -\n";
-    const Replay_verdict verdict = replay_text(soup, log);
+    const Replay_verdict verdict = replay_text(soup, head_of(soup) + step + "\nresult 1 30 -\n");
     ASSERT_TRUE(verdict.is_accepted());
     const auto has = [&](double x, double y) {
       return std::any_of(
@@ -242,12 +240,6 @@ TEST(Replay, UnguardedReductionIsRefusedAtItsFirstBadStep)
     EXPECT_FALSE(is_embedded(replayed(prefix)));
     EXPECT_TRUE(is_embedded(replayed(prefix.substr(0, prefix.rfind('c')))));
   }
-}
-
-std::string head_of(const Triangle_soup& soup, const std::string& limits = {})
-{
-  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
-         std::to_string(soup.triangles.size()) + " -\n" + limits;
 }
 
 Violation_kind kind_of_first(const Triangle_soup& soup, const std::string& log)

@@ -103,9 +103,8 @@ std::optional<Violation_kind> first_violation(const Triangle_soup& soup, const s
                                               std::size_t count)
 {
   std::ostringstream log;
-  log << "selvedge-log 1\ninput " << soup.points.size() << ' ' << soup.triangles.size()
-      << " -\nlimit seam_turn 180\n"
-      << steps << "result " << count << ' ' << soup.triangles.size() - 2 * count << " -\n";
+  log << head_of(soup, "limit seam_turn 180\n") << steps << "result " << count << ' '
+      << soup.triangles.size() - 2 * count << " -\n";
   const Replay_verdict verdict = replay_text(soup, log.str());
   return verdict.is_accepted() ? std::nullopt : std::optional(verdict.violations.front().kind);
 }

@@ -44,6 +44,13 @@ inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_optio
   return result;
 }
 
+/// Returns the first lines of a log of collapses of a soup.
+inline std::string head_of(const Triangle_soup& soup, const std::string& more = {})
+{
+  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
+         std::to_string(soup.triangles.size()) + " -\n" + more;
+}
+
 inline Replay_verdict replay_text(const Triangle_soup& original, const std::string& log,
                                   const Replay_options& options = {}, bool is_stl = false)
 {
