@@ -83,21 +83,6 @@ Triangle_soup generate(std::string_view name, const Generate_options& options = 
 /// in any build, as `generate`. Linear.
 std::vector<Pose> moving_poses(const Triangle_soup& soup, std::size_t count);
 
-/// A scene in which one collapse tunnels: a shallow bump over a small separate patch. Moving `moving` along
-/// the edge to `target` leaves an embedded mesh, but on the way the faces at `moving` pass through the patch,
-/// which lies under the bump before and above the sheet after. No other rule refuses this collapse: `moving`
-/// is the only interior vertex, the link condition holds, normals turn by at most 17°, and no triangle gets
-/// an aspect ratio below 0.2. Every other vertex is a corner of a border, so that a border rule allows no
-/// other collapse.
-struct Tunnel_scene
-{
-  Triangle_soup soup;
-  Index moving = 0;
-  Index target = 0;
-};
-
-Tunnel_scene tunnel_scene();
-
 } // namespace selvedge
 
 #endif // SELVEDGE_GENERATE_H

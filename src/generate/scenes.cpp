@@ -266,13 +266,6 @@ void add_bump(Soup_builder& builder, std::size_t number, double x, double y)
 
 } // namespace
 
-Tunnel_scene tunnel_scene()
-{
-  Soup_builder builder(2, 7);
-  add_bump(builder, 0, 0, 0);
-  return {builder.take(), 0, 1};
-}
-
 Triangle_soup internal::tunnels(const Generate_options& options)
 {
   const std::size_t bumps = std::max<std::size_t>(1, (options.faces + 3) / 7);

@@ -4,6 +4,7 @@
 // G2: nothing passes through anything on the way; the order of layers is kept.
 
 #include "support/mesh_of.h"
+#include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
