@@ -30,11 +30,11 @@ public:
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;
 
-  /// Begins a phase, which the line names.
-  void begin(const std::string& phase)
+  /// Begins a phase, which the line names, and how many poses it is in.
+  void begin(const std::string& phase, std::size_t further_poses = 0)
   {
     m_is_reducing = false;
-    show(phase + " …");
+    show(phase + (further_poses == 0 ? "" : " in " + counted(1 + further_poses, "pose")) + " …");
   }
 
   void update(const Simplify_progress& progress)
@@ -63,6 +63,13 @@ public:
   }
 
   void clear() { show(""); }
+
+  /// Prints a message of the program in place of the line.
+  void complain(const std::string& message)
+  {
+    clear();
+    std::cerr << "selvedge: " << message << std::endl;
+  }
 
 private:
   static constexpr std::size_t width = 16;

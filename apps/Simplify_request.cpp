@@ -11,6 +11,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/cells.h>
+#include <selvedge/key_poses.h>
 #include <selvedge/poses.h>
 
 #include <algorithm>
@@ -177,7 +178,7 @@ void check_use(const Simplify_request& request)
   if (request.instances != Instances::shared)
     return;
   const bool is_from_gltf = is_gltf(format_of(request.input, request.format));
-  if (!is_from_gltf || !is_gltf(format_of(request.output, request.format)))
+  if (!is_from_gltf || !is_gltf(output_format(request)))
     throw Argument_error("--instances shared: only glTF has meshes in several places, and " +
                          (is_from_gltf ? "the output" : input_name(request.input)) +
                          " is of another format; leave it out");
@@ -263,6 +264,16 @@ void check(const Simplify_request& request)
 
 } // namespace
 
+Mesh_format output_format(const Simplify_request& request)
+{
+  return format_of(request.output, request.format);
+}
+
+std::size_t poses_guarded_first(const Simplify_request& request, std::size_t poses)
+{
+  return request.are_key_poses_chosen ? number_of_key_poses(poses) : poses;
+}
+
 std::vector<Named_file> files_read_beside(const Simplify_request& request)
 {
   std::vector<Named_file> files{{"--obstacle", request.obstacle}};
@@ -287,7 +298,7 @@ std::vector<std::string> outputs(const Simplify_request& request)
   if (request.lods.empty() && place != std::string::npos)
     throw Argument_error("--output: {lod} stands for the number of a level, but no level is asked for; give "
                          "--lods R,R, or a name without {lod}");
-  if (are_levels_in_one_file(request) && !is_gltf(format_of(request.output, request.format)))
+  if (are_levels_in_one_file(request) && !is_gltf(output_format(request)))
     throw Argument_error(
         "--lods: the name of the output must contain {lod}, which stands for the number of the level: -o "
         "'jacket_{lod}.obj'; only .glb and .gltf files hold all levels in one: -o jacket.glb");

@@ -80,6 +80,12 @@ bool are_levels_in_one_file(const Simplify_request& request);
 /// Returns whether gaps in seams are closed, by --weld auto or --weld EPS.
 bool are_gaps_welded(const Simplify_request& request);
 
+/// Returns the format of the output.
+Mesh_format output_format(const Simplify_request& request);
+
+/// Returns how many of the further poses of the input are guarded until the judge refuses a result in others.
+std::size_t poses_guarded_first(const Simplify_request& request, std::size_t poses);
+
 /// Returns the files of poses and of the obstacle, which the run reads and must not replace.
 std::vector<Named_file> files_read_beside(const Simplify_request& request);
 

@@ -5,14 +5,11 @@
 #include "Progress_bar.h"
 #include "Simplify_request.h"
 #include "Thread_limit.h"
-#include "attributes_option.h"
-#include "cost_of_poses.h"
-#include "dropped_parts_options.h"
 #include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
-#include "poses_option.h"
 #include "report_json.h"
+#include "simplify_input.h"
 #include "simplify_summary.h"
 #include "standard_streams.h"
 #include "subcommands.h"
@@ -21,9 +18,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Missed_target.h>
-#include <selvedge/Parts.h>
 #include <selvedge/Reduction_log.h>
-#include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/internal/Stopwatch.h>
 #include <selvedge/key_poses.h>
@@ -31,13 +26,10 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
 #include <selvedge/progressive.h>
-#include <selvedge/rounding.h>
-#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <atomic>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -61,24 +53,26 @@ public:
   {
     const Cancellation_scope scope([this] { return is_interrupted() && !m_is_kept; });
     try {
-      m_report["input"] = nullptr;
-      const Prepared_soup prepared = read_and_prepare();
+      m_input = read_input(m_request, m_bar);
+      m_report["input"] = std::move(m_input.report);
+      m_seconds["read"] = m_input.seconds;
       if (m_request.is_error_everywhere)
         m_error_search.emplace(*m_request.options.max_error);
-      m_guarded_poses = key_poses(prepared.soup, poses_guarded_first(prepared.soup.poses.size()));
+      const Triangle_soup& soup = m_input.prepared.soup;
+      m_guarded_poses = key_poses(soup, poses_guarded_first(m_request, soup.poses.size()));
       std::vector<Level> levels;
       do {
-        levels = reduce(prepared);
-        judge(levels, prepared);
+        levels = reduce();
+        judge(levels);
       } while (guard_more_poses(levels) || advance_error_search(levels) || keep_shape(levels));
-      write(prepared, levels);
-      report(prepared, levels);
+      write(levels);
+      report(levels);
       return m_outcome.exit_code();
     } catch (const Interrupted&) {
       m_bar.clear();
       if (m_files_written.empty())
         throw;
-      complain("interrupted; written before: " + files_written());
+      m_bar.complain("interrupted; written before: " + files_written());
       return exit_interrupted;
     } catch (const std::exception& error) {
       if (m_files_written.empty())
@@ -88,209 +82,6 @@ public:
   }
 
 private:
-  Mesh_format output_format() const { return format_of(m_request.output, m_request.format); }
-
-  // One rounding for all files: the mesh and its poses are judged as they are written.
-  bool is_rounded(const Triangle_soup& soup) const
-  {
-    const std::string& poses = m_request.poses_output;
-    if (needs_float32(soup, output_format()) ||
-        (!m_request.progressive.empty() && needs_float32(soup, Mesh_format::glb)))
-      return true;
-    if (poses.empty() || (!is_point_cache(poses) && !stores_float32(mesh_format(poses))))
-      return false;
-    if (is_one_file_of_poses(poses) && !is_point_cache(poses) && !has_float32_points(soup.points))
-      return true; // the mesh itself is in that file as well
-    return !std::all_of(soup.poses.begin(), soup.poses.end(),
-                        [](const Pose& pose) { return has_float32_points(pose.points); });
-  }
-
-  // A scene is written with the coordinates of its nodes, which lead to no rounded coordinates of the world.
-  void require_one_rounding(const Triangle_soup& soup) const
-  {
-    const bool is_scene_written = is_gltf(output_format()) || !m_request.progressive.empty();
-    if (!soup.scene || !is_scene_written || !is_rounded(soup) || has_float32_points(soup.points))
-      return;
-    const bool is_of_output = needs_float32(soup, output_format());
-    throw Argument_error(
-        (is_of_output ? std::string("--progressive") : "--poses-out " + m_request.poses_output) +
-        ": the transforms of nodes bring vertices of " + m_request.input + " to places that are no 32-bit " +
-        "floats, which " + (is_of_output ? m_request.output : "that file") + " needs, and " +
-        (is_gltf(output_format()) ? m_request.output : m_request.progressive) +
-        " cannot be rounded with it; " +
-        (is_of_output
-             ? "leave out --progressive, or write the mesh as .obj, .ply or .glb"
-             : "write poses of their own, as with --poses-out 'NAME_{pose}.obj', or the mesh as .obj"));
-  }
-
-  void drop_parts_of(Mesh_file& file)
-  {
-    const Parts_left left = drop_parts(file.soup, m_request.dropped_parts, m_request.input);
-    if (!m_request.dropped_parts.names.empty())
-      file.notes.remarks["faces left out by --drop-part"] += left.named;
-    if (left.small > 0)
-      file.notes.remarks["faces left out by --drop-smaller, in " + counted(left.small_pieces, "piece")] +=
-          left.small;
-    else if (m_request.dropped_parts.smaller_than > 0 && !m_request.is_quiet)
-      complain("--drop-smaller leaves out nothing: no piece of " + input_name(m_request.input) +
-               " is that small");
-    m_log_header.dropped_parts = m_request.dropped_parts;
-  }
-
-  void drop_attributes_of(Mesh_file& file)
-  {
-    const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes, m_request.input);
-    if (joined > 0)
-      file.notes.remarks["corners joined, for their vertices differ in nothing but what is left out"] +=
-          joined;
-    m_log_header.dropped = m_request.dropped_attributes;
-  }
-
-  // OBJ has normals apart from vertices: there, several vertices at one place mean something.
-  void join_without_normals(Mesh_file& file)
-  {
-    if (!has_normals_of_vertices(file.format))
-      return;
-    const std::size_t joined = share_vertices_without_normals(file.soup, m_normals);
-    if (joined == 0)
-      return;
-    file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
-    m_log_header.normals = shared_normals(m_normals);
-  }
-
-  void say_what_poses_cost(const Triangle_soup& soup)
-  {
-    if (m_request.is_quiet || !m_request.options.check_intersections)
-      return;
-    const std::size_t poses = soup.poses.size(),
-                      every = has_frames(m_request.poses, m_request.input) ? m_request.poses.every : 0;
-    if (const std::string cost =
-            cost_of_poses(poses, soup.triangles.size(), poses_guarded_first(poses), every);
-        !cost.empty())
-      complain(cost);
-  }
-
-  // Their names are known only now.
-  void check_pose_outputs(const std::vector<Pose>& poses) const
-  {
-    if (m_request.poses_output.empty())
-      return;
-    std::vector<Named_file> poses_written;
-    for (std::size_t level = 1; level <= std::max<std::size_t>(m_request.lods.size(), 1); ++level) {
-      for (const Pose& pose : poses) {
-        poses_written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
-        if (is_one_file_of_poses(m_request.poses_output))
-          break;
-      }
-    }
-    std::vector<Named_file> written = poses_written;
-    for (const std::string& mesh : outputs(m_request))
-      written.push_back({"--output", mesh});
-    for (const auto& [option, name] :
-         {std::make_pair("--report", m_request.report), std::make_pair("--log", m_request.log),
-          std::make_pair("--progressive", m_request.progressive), std::make_pair("--html", m_request.html)})
-      written.push_back({option, name});
-    require_distinct(written, files_read_beside(m_request));
-    // The mesh may take the place of the input, but no pose may.
-    require_distinct(poses_written, {{"IN", m_request.input}});
-    require_writable(written);
-  }
-
-  Prepared_soup read_and_prepare()
-  {
-    Triangle_soup soup = read();
-    return prepare_input(std::move(soup), read_obstacle());
-  }
-
-  // Returns the input without what is left out of it, having refused outputs that do not fit it.
-  Triangle_soup read()
-  {
-    m_bar.begin("reading");
-    const internal::Stopwatch stopwatch;
-    Mesh_input input(m_request.input, m_request.format);
-    Mesh_file file = input.read();
-    m_seconds["read"] = stopwatch.seconds();
-    read_poses(m_request.poses, m_request.input, file.soup);
-    if (!m_request.log.empty()) {
-      m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
-      m_log_header.vertices = m_numbering->size();
-      m_log_header.triangles = file.soup.triangles.size();
-    }
-    drop_parts_of(file);
-    drop_attributes_of(file);
-    m_normals = m_request.progressive.empty() ? suited_to(file.soup, m_request.normals) : m_request.normals;
-    if (joins_vertices(m_normals))
-      join_without_normals(file);
-    m_report["input"] = input_json(m_request.input, file);
-    check_pose_outputs(file.soup.poses);
-    require_one_rounding(file.soup);
-    say_what_poses_cost(file.soup);
-    if (are_levels_in_one_file(m_request) && m_request.placement == Placement_choice::optimal &&
-        file.soup.scene)
-      throw Argument_error(
-          "--lods: levels with vertices at new places (--placement optimal) cannot share the "
-          "scene of a glTF file; write each to a file of its own, as with -o "
-          "'jacket_{lod}.glb', or leave out --placement optimal");
-    if (m_request.are_polygons_split)
-      file.soup.polygons.clear();
-    m_polygons = file.soup.polygons.size();
-    if (!m_request.log.empty()) {
-      m_log_header.sha256 = input.sha256();
-      m_log_header.is_rounded_to_float32 = is_rounded(file.soup);
-      for (const Pose& pose : file.soup.poses)
-        m_log_header.poses.push_back({pose.name, digest_of(pose.points), {}});
-    }
-    return std::move(file.soup);
-  }
-
-  Triangle_soup read_obstacle()
-  {
-    if (m_request.obstacle.empty())
-      return {};
-    Mesh_input input(m_request.obstacle, m_request.format);
-    Triangle_soup obstacle = input.read().soup;
-    read_obstacle_poses(m_request.obstacle_poses, m_request.obstacle, m_request.poses, obstacle);
-    m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), input.sha256()};
-    return obstacle;
-  }
-
-  Prepared_soup prepare_input(Triangle_soup soup, const Triangle_soup& obstacle)
-  {
-    for (const std::string& name : {m_request.output, m_request.progressive})
-      require_avatar(name, soup);
-    m_references = relocate(soup, output_format(), m_request.input, m_request.output);
-
-    m_bar.begin("judging the input" + in_poses(soup.poses.size()));
-    Prepare_options options;
-    options.round_to_float32 = is_rounded(soup);
-    options.defects = defects_of(m_request);
-    options.weld_distance = m_request.weld_distance;
-    options.open_seams = m_request.open_seams;
-    options.normals = m_normals;
-    options.orient = m_request.are_faces_oriented;
-    options.may_intersect = parts_in_pairs(soup, m_request.may_intersect, "--may-intersect");
-    keep_from_snapping(options, m_request.intent);
-    try {
-      Prepared_soup result = prepare(std::move(soup), options, obstacle);
-      if (!m_request.progressive.empty() &&
-          (result.normals == Normals_treatment::smooth || result.normals == Normals_treatment::smoothed ||
-           are_picked(result.normals)))
-        throw Argument_error(
-            "--progressive: normals that are made anew are others in every level, and the file has "
-            "one for each vertex; leave out --normals");
-      return result;
-    } catch (const Input_error& error) {
-      throw Input_error(input_name(m_request.input) +
-                        (m_request.dropped_parts.empty() ? ": " : ", without what is left out: ") +
-                        error.what());
-    }
-  }
-
-  std::size_t poses_guarded_first(std::size_t poses) const
-  {
-    return m_request.are_key_poses_chosen ? number_of_key_poses(poses) : poses;
-  }
-
   // Adds the poses in which the judge found new pairs or pieces too near to those that are guarded. Returns
   // whether there are any, so that the reduction is to be done again.
   bool guard_more_poses(const std::vector<Level>& levels)
@@ -303,16 +94,11 @@ private:
     if (m_guarded_poses.size() == guarded)
       return false;
     if (!m_request.is_quiet)
-      complain("the judge refuses the result in " + counted(m_guarded_poses.size() - guarded, "pose") +
-               " that " + (m_guarded_poses.size() - guarded == 1 ? "was" : "were") +
-               " not guarded: the reduction begins again, with " + with_commas(m_guarded_poses.size()) +
-               " of " + with_commas(levels.front().verification.poses.size()) + " guarded");
+      m_bar.complain("the judge refuses the result in " + counted(m_guarded_poses.size() - guarded, "pose") +
+                     " that " + (m_guarded_poses.size() - guarded == 1 ? "was" : "were") +
+                     " not guarded: the reduction begins again, with " + with_commas(m_guarded_poses.size()) +
+                     " of " + with_commas(levels.front().verification.poses.size()) + " guarded");
     return true;
-  }
-
-  static std::string in_poses(std::size_t further)
-  {
-    return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
   // Where the error is to be kept everywhere, chooses that of the next reduction. Returns whether there is to
@@ -339,20 +125,20 @@ private:
     return m_missed_target.advance(judged);
   }
 
-  std::vector<Level> reduce(const Prepared_soup& prepared)
+  std::vector<Level> reduce()
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_missed_target.options();
-    options.placement = placement_for(m_request, prepared.soup);
+    options.placement = placement_for(m_request, m_input.prepared.soup);
     if (m_error_search)
       options.max_error = m_error_search->max_error();
-    if (m_guarded_poses.size() < prepared.soup.poses.size())
+    if (m_guarded_poses.size() < m_input.prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
     m_log.str({});
     m_collapses.clear();
     m_progression = {};
-    if (!is_gltf(output_format()))
+    if (!is_gltf(output_format(m_request)))
       options.instances = Instances::apart;
     options.is_history_kept = !m_request.html.empty();
     options.should_stop = [this](const Simplify_progress& progress) {
@@ -361,16 +147,17 @@ private:
       if (!is_interrupted())
         return false;
       if (!std::exchange(m_is_stop_told, true))
-        complain("stopping: what was reached is judged and written next; interrupt again to end at once");
+        m_bar.complain(
+            "stopping: what was reached is judged and written next; interrupt again to end at once");
       return true;
     };
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
-      Log_header header = m_log_header;
+      Log_header header = m_input.log_header;
       header.poses.clear();
       for (const std::size_t pose : m_guarded_poses)
-        header.poses.push_back(m_log_header.poses[pose]);
-      log.emplace(m_log, header, *m_numbering, prepared, options);
+        header.poses.push_back(m_input.log_header.poses[pose]);
+      log.emplace(m_log, header, *m_input.numbering, m_input.prepared, options);
     }
     if (log || !m_request.html.empty())
       options.on_collapse = [&](const Soup_collapse& collapse) {
@@ -381,9 +168,9 @@ private:
       };
     std::vector<Simplified_soup> results;
     if (m_request.lods.empty())
-      results.push_back(simplify_soup(prepared, options, m_request.intent));
+      results.push_back(simplify_soup(m_input.prepared, options, m_request.intent));
     else
-      results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
+      results = simplify_lods(m_input.prepared, options, m_request.lods, m_request.intent);
     m_missed_target.complete(results);
     const auto is_stopped = [](const Simplified_soup& result) { return result.report.is_stopped; };
     const auto is_untouched = [](const Simplified_soup& result) { return result.report.collapses == 0; };
@@ -399,7 +186,7 @@ private:
     std::vector<const Simplified_soup*> all;
     for (const Simplified_soup& result : results)
       all.push_back(&result);
-    m_seconds.add(prepared, all);
+    m_seconds.add(m_input.prepared, all);
     const std::vector<std::string> names = outputs(m_request);
     m_seconds_of_levels.resize(results.size(), 0);
     const bool is_one_file = are_levels_in_one_file(m_request);
@@ -421,20 +208,21 @@ private:
     return m_request.is_sewn ? merged_at_positions(result.soup) : result.soup;
   }
 
-  void judge(std::vector<Level>& levels, const Prepared_soup& prepared)
+  void judge(std::vector<Level>& levels)
   {
-    m_bar.begin((levels.size() == 1 ? "judging the result" : "judging the results") +
-                in_poses(prepared.soup.poses.size()));
+    m_bar.begin(levels.size() == 1 ? "judging the result" : "judging the results",
+                m_input.prepared.soup.poses.size());
     const internal::Stopwatch stopwatch;
     m_outcome = {};
     m_outcome.is_guarded = m_request.options.check_intersections;
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
-      level.verification = verify(level.result, prepared);
+      level.verification = verify(level.result, m_input.prepared);
       if (has_own_error(m_request))
-        level.distances_anywhere = distances_anywhere(level.result.soup, prepared.soup);
-      if (m_polygons > 0) // otherwise the soup need not be merged and copied for it
-        level.polygons = {m_polygons, written_polygons(written(level.result), output_format())};
+        level.distances_anywhere = distances_anywhere(level.result.soup, m_input.prepared.soup);
+      if (m_input.polygons > 0) // otherwise the soup need not be merged and copied for it
+        level.polygons = {m_input.polygons,
+                          written_polygons(written(level.result), output_format(m_request))};
       m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
@@ -446,18 +234,19 @@ private:
   // refers as that one does, and all others as the input.
   void relocate_to(const std::filesystem::path& path, Mesh_format format, Triangle_soup& soup) const
   {
-    const bool is_of_same_kind = format == output_format() || (is_gltf(format) && is_gltf(output_format()));
+    const bool is_of_same_kind =
+        format == output_format(m_request) || (is_gltf(format) && is_gltf(output_format(m_request)));
     const bool is_as_in_output = is_of_same_kind && !is_standard_output(m_request.output);
     relocate(soup, format, is_as_in_output ? m_request.output : m_request.input, path);
   }
 
   // Writes the prepared input with the steps.
-  void write_progression(const Prepared_soup& prepared, const std::vector<Level>& levels)
+  void write_progression(const std::vector<Level>& levels)
   {
     if (m_request.progressive.empty())
       return;
     const std::filesystem::path path = m_request.progressive;
-    Triangle_soup soup = prepared.soup;
+    Triangle_soup soup = m_input.prepared.soup;
     relocate_to(path, Mesh_format::glb, soup);
     Progressive_notes notes;
     notes.fixed_faces = levels.front().result.report.faces_fixed;
@@ -474,34 +263,36 @@ private:
     m_report["progressive"] = {
         {"path", m_request.progressive},
         {"steps", m_progression.steps.size()},
-        {"faces", prepared.soup.triangles.size()},
+        {"faces", m_input.prepared.soup.triangles.size()},
         {"least_faces", triangles_after(m_progression, m_progression.steps.size()).size()},
         {"not_carried", dropped}};
   }
 
-  void write(const Prepared_soup& prepared, std::vector<Level>& levels)
+  void write(std::vector<Level>& levels)
   {
     const internal::Stopwatch stopwatch;
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
-      const bool is_of_same_format = format_of(m_request.input, m_request.format) == output_format() &&
-                                     is_gzip(m_request.input) == is_gzip(m_request.output);
+      const bool is_of_same_format =
+          format_of(m_request.input, m_request.format) == output_format(m_request) &&
+          is_gzip(m_request.input) == is_gzip(m_request.output);
       // The output may take the place of the input. It has all its bytes in one file.
       std::uintmax_t size_before = is_of_same_format ? size_of_file(m_request.input) : 0;
-      if (size_before > 0 && output_format() == Mesh_format::gltf && has_buffers_beside(m_request.input))
+      if (size_before > 0 && output_format(m_request) == Mesh_format::gltf &&
+          has_buffers_beside(m_request.input))
         size_before = 0;
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       if (are_levels_in_one_file(m_request)) {
         std::vector<Triangle_soup> soups;
         for (const Level& level : levels)
           soups.push_back(written(level.result));
-        write_output(m_request.output, soups, output_format());
+        write_output(m_request.output, soups, output_format(m_request));
         m_files_written.push_back(m_request.output);
       }
       for (Level& level : levels) {
         if (level.number == 0) {
           level.notes =
-              write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
+              write_output(level.output, written(level.result), output_format(m_request), m_request.is_ascii);
           m_files_written.push_back(level.output);
           const std::uintmax_t size = size_of_file(output_path(level.output));
           if (size > size_before && size_before > 0)
@@ -509,7 +300,7 @@ private:
         }
         write_poses(level.result.soup, std::size_t(&level - levels.data()) + 1);
       }
-      write_progression(prepared, levels);
+      write_progression(levels);
     }
     // The log is written even when the result was refused, because it shows why.
     if (!m_request.log.empty()) {
@@ -520,7 +311,7 @@ private:
     m_bar.clear();
     for (const Level& level : levels)
       if (const std::string what = complaint(m_request, level, m_outcome); !what.empty())
-        complain(what);
+        m_bar.complain(what);
   }
 
   void write_poses(const Triangle_soup& soup, std::size_t level)
@@ -540,17 +331,17 @@ private:
     }
   }
 
-  void report(const Prepared_soup& prepared, const std::vector<Level>& levels)
+  void report(const std::vector<Level>& levels)
   {
-    std::vector<std::string> dropped = not_carried(prepared.soup, output_format());
+    std::vector<std::string> dropped = not_carried(m_input.prepared.soup, output_format(m_request));
     if (format_of(m_request.input, m_request.format) == Mesh_format::stl) // which has none either
       dropped.erase(std::remove(dropped.begin(), dropped.end(), "vertex numbers"), dropped.end());
     if (!m_request.is_quiet) {
       std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
-      print_input(stream, m_request, prepared, levels.front().verification.distances->diagonal,
-                  m_report["input"]["notes"], dropped, m_references);
+      print_input(stream, m_request, m_input.prepared, levels.front().verification.distances->diagonal,
+                  m_report["input"]["notes"], dropped, m_input.references);
       for (const Level& level : levels)
-        print_summary(stream, m_request, prepared, level, m_outcome,
+        print_summary(stream, m_request, m_input.prepared, level, m_outcome,
                       &level == &levels.front() ? nullptr : &level - 1);
       print_progression(stream);
     }
@@ -564,18 +355,18 @@ private:
                         {"polygons", level.polygons.output},
                         {"larger", or_null(enlargement(m_request, level))},
                         {"not_carried", dropped},
-                        {"references", m_references},
-                        {"placement", name_of(placement_for(m_request, prepared.soup))},
-                        {"normals", name_of(prepared.normals)}};
+                        {"references", m_input.references},
+                        {"placement", name_of(placement_for(m_request, m_input.prepared.soup))},
+                        {"normals", name_of(m_input.prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
-      add_reduction(json, prepared, level.result);
+      add_reduction(json, m_input.prepared, level.result);
       add_verification(json, level.verification, true);
       add_distances(json, level.verification, level.distances_anywhere);
       add_error_search(json, level.error_search);
       add_guarded_poses(json, level.guarded_poses, level.result);
       const internal::Stopwatch stopwatch;
-      add_parts(json, prepared, level.result);
+      add_parts(json, m_input.prepared, level.result);
       seconds_parts += stopwatch.seconds();
     };
     add_level(m_report, levels.back());
@@ -594,7 +385,7 @@ private:
       m_files_written.push_back(m_request.report);
     }
     if (!m_request.html.empty())
-      write_file(output_path(m_request.html), page(prepared, levels));
+      write_file(output_path(m_request.html), page(levels));
   }
 
   void print_progression(std::ostream& stream) const
@@ -610,12 +401,12 @@ private:
     stream << std::endl;
   }
 
-  std::string page(const Prepared_soup& prepared, const std::vector<Level>& levels) const
+  std::string page(const std::vector<Level>& levels) const
   {
-    Html_report html(prepared.soup, prepared.obstacle);
+    Html_report html(m_input.prepared.soup, m_input.prepared.obstacle);
     std::vector<std::string> still = m_request.intent.locked;
     still.insert(still.end(), m_request.intent.kept.begin(), m_request.intent.kept.end());
-    html.add_input(prepared, still);
+    html.add_input(m_input.prepared, still);
     std::vector<const Simplified_soup*> results;
     for (const Level& level : levels)
       results.push_back(&level.result);
@@ -641,20 +432,12 @@ private:
     return result;
   }
 
-  void complain(const std::string& message)
-  {
-    m_bar.clear();
-    std::cerr << "selvedge: " << message << std::endl;
-  }
-
   const Simplify_request& m_request;
   Progress_bar m_bar;
+  Simplify_input m_input;
   Outcome m_outcome;
   Json m_report = new_report("simplify");
-  Normals_choice m_normals = Normals_choice::automatic; // that suits the input
-  std::optional<Log_numbering> m_numbering;             // these three are used only when a log is written
-  Log_header m_log_header;
-  std::ostringstream m_log;
+  std::ostringstream m_log; // if it is written
   std::vector<std::size_t> m_guarded_poses;
   Missed_target m_missed_target;
   std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
@@ -662,11 +445,9 @@ private:
   Progression m_progression;                  // if it is written
   Phase_seconds m_seconds;
   std::vector<double> m_seconds_of_levels; // of all reductions so far
-  std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached
   std::vector<std::string> m_files_written;
-  std::vector<std::string> m_references; // to other files, as they are named from the output's folder
 };
 
 } // namespace

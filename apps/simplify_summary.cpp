@@ -243,7 +243,7 @@ void print_reduction(std::ostream& stream, const Simplify_request& request, cons
 {
   const Simplified_soup& result = level.result;
   const Simplify_report& done = result.report;
-  const Mesh_format format = format_of(request.output, request.format);
+  const Mesh_format format = output_format(request);
   const bool has_normals = format != Mesh_format::off && format != Mesh_format::stl;
   const bool has_polygons = format != Mesh_format::stl && !is_gltf(format);
   if (done.faces_fixed > 0)
@@ -396,14 +396,14 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.rounding.coordinates > 0)
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
            << " rounded to 32-bit floats, because "
-           << (needs_float32(prepared.soup, format_of(request.output, request.format)) ? "the output's format"
-               : request.progressive.empty() ? "the file of --poses-out"
-                                             : "the file of --progressive")
+           << (needs_float32(prepared.soup, output_format(request)) ? "the output's format"
+               : request.progressive.empty()                        ? "the file of --poses-out"
+                                                                    : "the file of --progressive")
            << " stores nothing more precise\n";
   if (prepared.normals == Normals_treatment::flat)
     stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
               "shading; --normals smooth shades the result smooth\n";
-  const bool is_shown_flat = is_gltf(format_of(request.output, request.format));
+  const bool is_shown_flat = is_gltf(output_format(request));
   if (prepared.normals == Normals_treatment::dropped && is_shown_flat)
     stream << "  normals dropped: programs that show glTF then shade every face flat\n";
   if (prepared.normals == Normals_treatment::none && is_shown_flat && request.progressive.empty())
@@ -471,7 +471,7 @@ std::string enlargement(const Simplify_request& request, const Level& level)
     why += (why.empty() ? "" : "; ") + counted_note(count, what);
   if (why.empty() && request.is_ascii)
     why = "--ascii writes numbers as text";
-  if (why.empty() && format_of(request.output, request.format) == Mesh_format::gltf)
+  if (why.empty() && output_format(request) == Mesh_format::gltf)
     why = "a .gltf file has its buffers in it as text, which takes a third more than a .glb file";
   return "larger than the input by " + counted(level.bytes_more, "byte") + ": " +
          (why.empty() ? "its numbers, or what stands beside them, take more space than in the input" : why);
