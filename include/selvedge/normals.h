@@ -214,11 +214,12 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 /// between which triangles turn by more than 40° get normals of their own, if the common one is farther than
 /// 40° from a triangle and at least half of the squared error around goes by this. A normal stays, bit for
 /// bit, where no triangle that has it has changed, at triangles of the original that `stays` names (by
-/// triangle; empty: none), on borders, where a mesh of another file or the next place of this one may go on,
-/// and where the new one would differ by at most 0.1°. No new one is farther from the normal of a triangle
-/// (or of its back, if the normals of the original point there on average) than 78.4°, of which the cosine is
-/// 0.2, unless the old one was farther: it is a mean with the old one then, or the old one. New ones have the
-/// length 1 and the precision of 32-bit floats. Returns how many corners have a new one.
+/// triangle; empty: none), where the new one would differ by at most 0.1°, and on borders, where a mesh of
+/// another file or the next place of this one may go on, unless the new one would differ by more than 20°. No
+/// new one is farther from the normal of a triangle (or of its back, if the normals of the original point
+/// there on average) than 78.4°, of which the cosine is 0.2, unless the old one was farther: it is a mean
+/// with the old one then, or the old one. New ones have the length 1 and the precision of 32-bit floats.
+/// Returns how many corners have a new one.
 ///
 /// **Not promised** The further poses of a mesh are not asked, nor what morph targets add. Where a pose bends
 /// a surface as it is bent, or more, new normals are nearer to those of the original there, too; where it

@@ -58,6 +58,10 @@ constexpr double s_cosine_of_split = 0.766;
 // triangles there. What is smooth is to stay so.
 constexpr double s_share_left_of_split = 0.5;
 
+// Of 20°, from which on one sees a turn (`suited_to`): a normal on a border that is as far from the fitted
+// one shades faces as nothing did in the original.
+constexpr double s_cosine_of_border = 0.9397;
+
 // Where samples are in a triangle: quadratic functions are integrated exactly.
 constexpr std::array<double, 3> s_far = {1. / 6, 1. / 6, 2. / 3};
 
@@ -86,6 +90,8 @@ public:
       return 0;
     take_samples();
     std::vector<Vector> fitted = unit_solution();
+    if (hold_borders(fitted))
+      fitted = unit_solution();
     if (split_wedges(fitted))
       fitted = unit_solution();
     return assign(suited(std::move(fitted)));
@@ -179,7 +185,8 @@ private:
       ++wedge;
     if (wedge == m_old.size()) {
       m_old.push_back(normal);
-      m_is_fixed.push_back(normal == Vector{} || is_on_border);
+      m_is_fixed.push_back(normal == Vector{});
+      m_is_on_border.push_back(is_on_border);
     }
     return wedge;
   }
@@ -325,6 +332,18 @@ private:
       for (std::size_t axis = 0; axis < 3; ++axis)
         moments.normals[k][axis] += sample.weight * weights[k] * sample.normal[axis];
     }
+  }
+
+  // Fixes the wedges on borders whose old normals are near the fitted ones. Returns whether there are any.
+  bool hold_borders(const std::vector<Vector>& fitted)
+  {
+    bool is_any_held = false;
+    for (std::size_t w = 0; w < m_old.size(); ++w)
+      if (m_is_on_border[w] && !m_is_fixed[w] && dot(fitted[w], m_old[w]) >= s_cosine_of_border) {
+        m_is_fixed[w] = true;
+        is_any_held = true;
+      }
+    return is_any_held;
   }
 
   // Returns the product of the matrix of the least squares with a vector, in its free rows.
@@ -602,6 +621,7 @@ private:
   std::vector<Moments> m_moments;     // likewise
   std::vector<Vector> m_old;          // by wedge, of length 1
   std::vector<char> m_is_fixed;       // by wedge
+  std::vector<char> m_is_on_border;   // by wedge, before some are split
   std::vector<double> m_mass;         // by wedge: the area around it
   std::vector<char> m_is_split;       // by wedge: others were one with it; or empty
 };

@@ -533,6 +533,32 @@ TEST(FittedShading, StaysBitForBitOnBorders)
   EXPECT_GT(changed, 100u);
 }
 
+// A flat cloth with narrow faces along its edge, whose normals turn away. The result has one face in place of
+// all, which would be shaded as if it were bent.
+TEST(FittedShading, IsThatOfTheClothUpToABorderWhoseNormalsTurnAway)
+{
+  const std::array<double, 3> up{0, 0, 1}, slightly{0.2, 0, 1}, aside{1, 0, 1};
+  const std::vector<double> rows{0, 5, 10, 15, 20};
+  const Triangle_soup original =
+      extruded({{0, 0}, {0.1, 0}, {4, 0}, {7.9, 0}, {8, 0}}, {slightly, up, up, up, aside}, rows);
+  Triangle_soup result = extruded({{0, 0}, {8, 0}}, {slightly, aside}, rows);
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    triangles.push_back(4 * t);
+    corners.push_back({12 * t, 12 * t + 1, 12 * t + 2});
+  }
+  EXPECT_GT(fit_normals(result, triangles, corners, original, original.normals), 0u);
+  for (Index t = 0; t < result.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector normal = result.normals.values[result.normals.of_triangle[t][k]];
+      if (result.points[result.triangles[t][k]].x() == 0)
+        EXPECT_EQ(normal, direction(slightly)); // one does not see this, and what lies beside may have it
+      else
+        EXPECT_GT(normal[2], 0.98);
+    }
+}
+
 TEST(FittedShading, LeavesPartsThatAreKept)
 {
   Triangle_soup soup = sheet();
