@@ -186,7 +186,7 @@ private:
     if (wedge == m_old.size()) {
       m_old.push_back(normal);
       m_is_fixed.push_back(normal == Vector{});
-      m_is_on_border.push_back(is_on_border);
+      m_border_normals.push_back(is_on_border ? normal : Vector{});
     }
     return wedge;
   }
@@ -334,12 +334,17 @@ private:
     }
   }
 
+  bool is_near_on_border(std::size_t wedge, const Vector& fitted) const
+  {
+    return dot(fitted, m_border_normals[wedge]) >= s_cosine_of_border;
+  }
+
   // Fixes the wedges on borders whose old normals are near the fitted ones. Returns whether there are any.
   bool hold_borders(const std::vector<Vector>& fitted)
   {
     bool is_any_held = false;
     for (std::size_t w = 0; w < m_old.size(); ++w)
-      if (m_is_on_border[w] && !m_is_fixed[w] && dot(fitted[w], m_old[w]) >= s_cosine_of_border) {
+      if (!m_is_fixed[w] && is_near_on_border(w, fitted[w])) {
         m_is_fixed[w] = true;
         is_any_held = true;
       }
@@ -512,6 +517,7 @@ private:
           found->second = Index(means.size());
           means.emplace_back();
           m_is_fixed.push_back(false);
+          m_border_normals.push_back(Vector(m_border_normals[w]));
         }
         m_wedges[i][k] = found->second;
         const double weight = m_sides[i] * area(scaled(m_result, i));
@@ -588,7 +594,8 @@ private:
   {
     std::vector<char> is_kept = m_is_fixed;
     for (std::size_t w = 0; w < fitted.size(); ++w)
-      is_kept[w] |= fitted[w] == Vector{} || (!is_split(w) && are_near_normals(fitted[w], m_old[w]));
+      is_kept[w] |= fitted[w] == Vector{} || is_near_on_border(w, fitted[w]) ||
+                    (!is_split(w) && are_near_normals(fitted[w], m_old[w]));
     std::vector<Index> numbers(fitted.size());
     for (std::size_t w = 0; w < fitted.size(); ++w)
       if (!is_kept[w]) {
@@ -614,16 +621,16 @@ private:
   const Triangle_soup& m_original;
   const Corner_values<3>& m_normals; // of the corners of the original
   int m_exponent;
-  std::vector<char> m_is_left;        // by triangle of the original: it is in the result with its normals
-  std::vector<int> m_sides;           // by triangle of the result
-  std::vector<Vector> m_fronts;       // likewise
-  std::vector<Index_triple> m_wedges; // likewise
-  std::vector<Moments> m_moments;     // likewise
-  std::vector<Vector> m_old;          // by wedge, of length 1
-  std::vector<char> m_is_fixed;       // by wedge
-  std::vector<char> m_is_on_border;   // by wedge, before some are split
-  std::vector<double> m_mass;         // by wedge: the area around it
-  std::vector<char> m_is_split;       // by wedge: others were one with it; or empty
+  std::vector<char> m_is_left;          // by triangle of the original: it is in the result with its normals
+  std::vector<int> m_sides;             // by triangle of the result
+  std::vector<Vector> m_fronts;         // likewise
+  std::vector<Index_triple> m_wedges;   // likewise
+  std::vector<Moments> m_moments;       // likewise
+  std::vector<Vector> m_old;            // by wedge, of length 1
+  std::vector<char> m_is_fixed;         // by wedge
+  std::vector<Vector> m_border_normals; // by wedge: the old one if on a border, of parts that of the whole
+  std::vector<double> m_mass;           // by wedge: the area around it
+  std::vector<char> m_is_split;         // by wedge: others were one with it; or empty
 };
 
 } // namespace

@@ -108,9 +108,30 @@ double cosine(const std::array<double, 3>& normal, const Triangle_soup& soup, In
 
 using Normal = std::array<double, 3>;
 
+constexpr double s_cosine_of_border = 0.9409; // of 19.8°: 20°, and normals up to 0.1° apart may be one
+
+// Returns the cosine of the angle between two normals; NaN for one of length zero.
+double cosine(const Normal& a, const Normal& b)
+{
+  const auto dot = [](const Normal& u, const Normal& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
+  return dot(a, b) / std::sqrt(dot(a, a)) / std::sqrt(dot(b, b));
+}
+
 Normal normal_of(const Corner_values<3>& normals, Index triangle, std::size_t place)
 {
   return normals.values[normals.of_triangle[triangle][place]];
+}
+
+// Whether a normal may belong to another side than some triangle at a position of the result.
+bool may_be_wrong(const Triangle_soup& result, const Point_3& here, const std::array<double, 3>& normal,
+                  int side)
+{
+  constexpr double margin = 1e-6; // NaN is beyond no limit
+  for (Index j = 0; j < result.triangles.size(); ++j)
+    for (const Index v : result.triangles[j])
+      if (result.points[v] == here && !(side * cosine(normal, result, j) > 0.5 + margin))
+        return true;
+  return false;
 }
 
 // Returns why a corner of a result must not have its normal, or null. It has one of `old`, those of the
@@ -136,14 +157,10 @@ const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::si
   const Point_3& here = result.points[result.triangles[i][k]];
   for (const int side : {1, -1}) {
     // Another triangle at this place may have taken this one along.
-    const auto may_be_wrong = [&](const Normal& normal) {
-      for (Index j = 0; j < result.triangles.size(); ++j)
-        for (const Index v : result.triangles[j])
-          if (result.points[v] == here && !(side * cosine(normal, result, j) > 0.5 + margin))
-            return true;
-      return false;
+    const auto may_be_replaced = [&](const Normal& normal) {
+      return may_be_wrong(result, here, normal, side);
     };
-    if (!(side * sum < -margin) && std::any_of(old.begin(), old.end(), may_be_wrong) &&
+    if (!(side * sum < -margin) && std::any_of(old.begin(), old.end(), may_be_replaced) &&
         !(side * cosine(now, result, i) < 0.5 - margin) && is_unit(result.normals, i, k))
       return nullptr;
   }
@@ -220,7 +237,8 @@ std::map<Index, std::vector<Normal>> normals_at_vertices(const Triangle_soup& or
 
 // Judges the normals of a result that are fitted, after some were picked or not: those of triangles that
 // stay, or around which nothing has changed, are what they were, those on borders are so too, picked or
-// mended, and no other one is farther from that of its triangle than was promised.
+// mended, or differ by more than 20°, and no other one is farther from that of its triangle than was
+// promised.
 Verdict judge_fitted_normals(const World& world, const World_run& run, const std::set<std::size_t>& placed)
 {
   constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
@@ -267,9 +285,14 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
         continue;
       if (is_as_it_was(run, i) && (stays[t] != 0 || changes.count(here) == 0))
         return broken("another normal, and nothing has changed");
-      if (on_borders.count(here) > 0)
-        if (const char* what = wrong_in_mended_normal(result, i, k, original, normals, t, old))
-          return broken(what);
+      const auto may_give_way = [&](const Normal& normal) {
+        const Point_3& point = result.points[result.triangles[i][k]];
+        return !(cosine(now, normal) >= s_cosine_of_border + margin) ||
+               (!(sum < -margin) && may_be_wrong(result, point, normal, 1)) ||
+               (!(sum > margin) && may_be_wrong(result, point, normal, -1));
+      };
+      if (on_borders.count(here) > 0 && std::none_of(old.begin(), old.end(), may_give_way))
+        return broken("on a border, a new normal that is near the old one");
       if (!is_unit(result.normals, i, k))
         return broken("a new normal of another length");
       double nearest = -1;
