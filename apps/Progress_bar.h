@@ -30,7 +30,7 @@ public:
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;
 
-  /// Begins a phase, which the line names, and how many poses it is in.
+  /// Begins a phase, which the line names, with the number of poses where there are further ones.
   void begin(const std::string& phase, std::size_t further_poses = 0)
   {
     m_is_reducing = false;

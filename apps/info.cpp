@@ -418,6 +418,10 @@ Exit_code run(const Info_request& request)
   try {
     mesh = inspect(std::move(file.soup), has_normals_of_vertices(file.format));
     mesh.unused_vertices -= file.notes.joined_vertices;
+    if (mesh.joined_corners > 0) {
+      file.notes.remarks[remark_on_joined_corners] += mesh.joined_corners;
+      report["input"]["notes"] = describe(file.notes);
+    }
   } catch (const Input_error& error) {
     throw Input_error(input_name(request.mesh) + ": " + error.what());
   }

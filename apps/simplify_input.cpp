@@ -106,7 +106,7 @@ private:
     const std::size_t joined = share_vertices_without_normals(file.soup, m_normals);
     if (joined == 0)
       return;
-    file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
+    file.notes.remarks[remark_on_joined_corners] += joined;
     m_result.log_header.normals = shared_normals(m_normals);
   }
 

@@ -31,6 +31,10 @@ inline std::string counted(std::size_t number, const std::string& noun, const st
   return with_commas(number) + ' ' + (number == 1 ? noun : plural.empty() ? noun + 's' : plural);
 }
 
+/// What is said of the corners that `share_vertices_without_normals` joins.
+constexpr const char* remark_on_joined_corners =
+    "corners joined, for their vertices differ in nothing but their normals";
+
 inline std::string with_digits(double value, const char* format = "%.3g")
 {
   char text[64];

@@ -76,6 +76,7 @@ struct Inspection
 {
   std::size_t vertices = 0;
   std::size_t unused_vertices = 0;     ///< of no triangle
+  std::size_t joined_corners = 0;      ///< by `share_vertices_without_normals`, before all that follows
   std::size_t coincident_vertices = 0; ///< at the position of an earlier one
   std::size_t faces = 0;
   std::size_t left_out_faces = 0;

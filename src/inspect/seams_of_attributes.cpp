@@ -93,7 +93,9 @@ std::map<std::string, std::size_t> seams_of_attributes(const Prepared_soup& prep
   const Fronts without_doubles = fronts_in_positions(soup.triangles, prepared.positions, prepared.fronts);
   const std::vector<Index>& fronts = without_doubles.numbers;
   const std::vector<Index_triple>& triangles = without_doubles.triangles;
-  const std::vector<const Attribute*> of_regions = attributes_of_regions(soup, number_positions(soup.points));
+  std::vector<const Attribute*> of_regions;
+  if (!soup.triangle_attributes.empty())
+    of_regions = attributes_of_regions(soup, number_positions(soup.points));
   const auto corner = [&](Index c) { return 3 * fronts[c / 3] + c % 3; };
   std::map<std::string, std::size_t> result;
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {

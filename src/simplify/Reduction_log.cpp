@@ -51,9 +51,12 @@ Logged_normals logged(Normals_treatment treatment)
     return Logged_normals::smooth;
   case Normals_treatment::smooth:
     return Logged_normals::hard;
-  default:
-    return Logged_normals::ignored;
+  case Normals_treatment::picked:
+  case Normals_treatment::flat:
+  case Normals_treatment::dropped:
+    break;
   }
+  return Logged_normals::ignored;
 }
 
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)

@@ -89,11 +89,9 @@ public:
     if (std::all_of(m_is_fixed.begin(), m_is_fixed.end(), [](char is_fixed) { return is_fixed != 0; }))
       return 0;
     take_samples();
-    std::vector<Vector> fitted = unit_solution();
-    if (hold_borders(fitted))
-      fitted = unit_solution();
+    std::vector<Vector> fitted = solution_beside_borders();
     if (split_wedges(fitted))
-      fitted = unit_solution();
+      fitted = solution_beside_borders();
     return assign(suited(std::move(fitted)));
   }
 
@@ -346,9 +344,21 @@ private:
     for (std::size_t w = 0; w < m_old.size(); ++w)
       if (!m_is_fixed[w] && is_near_on_border(w, fitted[w])) {
         m_is_fixed[w] = true;
+        m_old[w] = m_border_normals[w];
         is_any_held = true;
       }
     return is_any_held;
+  }
+
+  // Returns a solution that takes into account which borders it holds. What few become near only after the
+  // last round, `assign` holds.
+  std::vector<Vector> solution_beside_borders()
+  {
+    constexpr int most_rounds = 3;
+    std::vector<Vector> result = unit_solution();
+    for (int round = 0; round < most_rounds && hold_borders(result); ++round)
+      result = unit_solution();
+    return result;
   }
 
   // Returns the product of the matrix of the least squares with a vector, in its free rows.

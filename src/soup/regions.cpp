@@ -41,6 +41,8 @@ struct Faces
     firsts.push_back(Index(members.size()));
   }
 
+  bool is_of_one(Index face) const { return firsts[face + 1] - firsts[face] == 1; }
+
   std::vector<Index_triple> positions;
   std::vector<Index> firsts;  // by face, and one more: of its triangles in `members`
   std::vector<Index> members; // triangles
@@ -68,10 +70,14 @@ std::vector<const Attribute*> attributes_of_regions(const Triangle_soup& soup,
       std::sort(rows.begin(), rows.end());
       return rows;
     };
-    const auto differing =
-        std::size_t(std::count_if(neighbours.begin(), neighbours.end(), [&](const auto& faces_at) {
-          return rows_of(faces_at.first) != rows_of(faces_at.second);
-        }));
+    const auto do_differ = [&](const std::pair<Index, Index>& pair) {
+      const auto [f, g] = pair;
+      if (faces.is_of_one(f) && faces.is_of_one(g)) // as nearly all are
+        return row_of(attribute, faces.members[faces.firsts[f]]) !=
+               row_of(attribute, faces.members[faces.firsts[g]]);
+      return rows_of(f) != rows_of(g);
+    };
+    const auto differing = std::size_t(std::count_if(neighbours.begin(), neighbours.end(), do_differ));
     if (differing > 0 && s_edges_for_one_that_differs * differing <= neighbours.size())
       result.push_back(&attribute);
   }

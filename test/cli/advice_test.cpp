@@ -166,6 +166,7 @@ TEST(App_simplify, LeavesSoftEdgesOutOfSeams)
         EXPECT_EQ(info["seams"]["normals"], "softened");
         EXPECT_EQ(info["faces"]["fixed"], json["faces"]["fixed"]);
         EXPECT_EQ(info["vertices"]["unused"], 0);
+        EXPECT_EQ(info["input"]["notes"], json["input"]["notes"]);
       }
       EXPECT_EQ(run_app({"verify", out, "--against", in}).code, 0);
       EXPECT_EQ(run_app({"replay", in, log}).code, 0);

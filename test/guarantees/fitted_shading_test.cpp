@@ -511,7 +511,7 @@ TEST(FittedShading, IsThatOfASideUpToItsEdgeWhereTheRoundingIsGone)
 }
 
 // So that it goes on in what lies beside, in another file or as the next place of the same mesh.
-TEST(FittedShading, StaysBitForBitOnBorders)
+TEST(FittedShading, StaysBitForBitOnBordersWhereItIsNear)
 {
   const Triangle_soup soup = sheet();
   const Simplified_soup result = reduce(soup, to_ratio(0.05), fitting()).simplified;

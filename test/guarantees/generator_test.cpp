@@ -392,7 +392,7 @@ int side_of_patch(const Triangle_soup& soup)
 
 TEST(Tunnel, IsEmbeddedBeforeAndAfterWithThePatchOnTheOtherSide)
 {
-  const Tunnel_scene scene = tunnel_scene();
+  const test::Tunnel_scene scene = test::tunnel_scene();
   const Triangle_soup after = collapse(scene.soup, scene.moving, scene.target);
   EXPECT_EQ(after.triangles.size(), scene.soup.triangles.size() - 2);
   EXPECT_EQ(first_offence(scene.soup), "");
@@ -403,7 +403,7 @@ TEST(Tunnel, IsEmbeddedBeforeAndAfterWithThePatchOnTheOtherSide)
 
 TEST(Tunnel, PassesThroughThePatchOnTheWay)
 {
-  const Tunnel_scene scene = tunnel_scene();
+  const test::Tunnel_scene scene = test::tunnel_scene();
   const Point_3 from = scene.soup.points[scene.moving];
   const Point_3 to = scene.soup.points[scene.target];
   int offending = 0;
@@ -419,7 +419,7 @@ TEST(Tunnel, PassesThroughThePatchOnTheWay)
 
 TEST(Tunnel, NothingElseSpeaksAgainstTheCollapse)
 {
-  const Tunnel_scene scene = tunnel_scene();
+  const test::Tunnel_scene scene = test::tunnel_scene();
   const Triangle_soup& soup = scene.soup;
   const auto aspect = [&](const Index_triple& t) {
     const Kernel::Triangle_3 triangle(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);

@@ -123,8 +123,7 @@ Normal normal_of(const Corner_values<3>& normals, Index triangle, std::size_t pl
 }
 
 // Whether a normal may belong to another side than some triangle at a position of the result.
-bool may_be_wrong(const Triangle_soup& result, const Point_3& here, const std::array<double, 3>& normal,
-                  int side)
+bool may_be_wrong(const Triangle_soup& result, const Point_3& here, const Normal& normal, int side)
 {
   constexpr double margin = 1e-6; // NaN is beyond no limit
   for (Index j = 0; j < result.triangles.size(); ++j)
@@ -285,19 +284,27 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
         continue;
       if (is_as_it_was(run, i) && (stays[t] != 0 || changes.count(here) == 0))
         return broken("another normal, and nothing has changed");
-      const auto may_give_way = [&](const Normal& normal) {
-        const Point_3& point = result.points[result.triangles[i][k]];
-        return !(cosine(now, normal) >= s_cosine_of_border + margin) ||
-               (!(sum < -margin) && may_be_wrong(result, point, normal, 1)) ||
-               (!(sum > margin) && may_be_wrong(result, point, normal, -1));
-      };
-      if (on_borders.count(here) > 0 && std::none_of(old.begin(), old.end(), may_give_way))
-        return broken("on a border, a new normal that is near the old one");
       if (!is_unit(result.normals, i, k))
         return broken("a new normal of another length");
       double nearest = -1;
       for (const Normal& normal : old)
         nearest = std::max(nearest, side * cosine(normal, result, i));
+      // On a border, it is far from the old one, or from one that was mended. With `picked`, that was the one
+      // nearest to the triangle's; at soft vertices of `softened`, it may be any.
+      const auto may_give_way = [&](const Normal& normal) {
+        const bool may_be_picked = run.prepared.normals != Normals_treatment::picked || is_left ||
+                                   !(side * cosine(normal, result, i) < nearest - margin);
+        return may_be_picked && !(cosine(now, normal) >= s_cosine_of_border + margin);
+      };
+      const auto may_be_mended = [&](const Normal& normal) {
+        const Point_3& point = result.points[result.triangles[i][k]];
+        return (!(sum < -margin) && may_be_wrong(result, point, normal, 1)) ||
+               (!(sum > margin) && may_be_wrong(result, point, normal, -1));
+      };
+      if (on_borders.count(here) > 0 && std::none_of(old.begin(), old.end(), may_give_way) &&
+          (std::none_of(old.begin(), old.end(), may_be_mended) ||
+           (std::abs(sum) > margin && side * cosine(now, result, i) < limit - margin)))
+        return broken("on a border, a new normal that is near the old one");
       if (std::abs(sum) > margin && side * cosine(now, result, i) < std::min(limit, nearest) - margin)
         return broken("a new normal of another side");
     }

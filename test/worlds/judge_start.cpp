@@ -132,17 +132,32 @@ bool is_too_far_apart(const Triangle_soup& soup, const Triangle_soup& obstacle)
   return true;
 }
 
-/// Whether some triangle has three positions in one pose and fewer in another.
+/// Whether some triangle has two corners at one position in some pose, and no two that are so in all.
 bool has_side_of_length_zero_in_some_pose(const World& world)
 {
-  std::set<std::pair<std::vector<Index_triple>, std::vector<Index_triple>>> triangles; // of both
+  const auto has_one = [&](const std::vector<Index_triple>& triangles,
+                           const std::vector<std::vector<Index>>& positions) { // by pose
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Index_triple& triangle) {
+      bool is_in_some = false, is_in_all = false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto is_zero = [&](const std::vector<Index>& in_pose) {
+          return in_pose[triangle[k]] == in_pose[triangle[(k + 1) % 3]];
+        };
+        is_in_some |= std::any_of(positions.begin(), positions.end(), is_zero);
+        is_in_all |= std::all_of(positions.begin(), positions.end(), is_zero);
+      }
+      return is_in_some && !is_in_all;
+    });
+  };
+  std::vector<std::vector<Index>> of_own, of_obstacle;
   const auto add = [&](const Expected_start& start) {
-    triangles.emplace(start.soup.triangles, start.obstacle.triangles);
+    of_own.push_back(first_at_position(start.soup.points));
+    of_obstacle.push_back(first_at_position(start.obstacle.points));
   };
   add(Expected_start(world));
   for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose)
     add(Expected_start(in_pose(world, pose)));
-  return triangles.size() > 1;
+  return has_one(input_of(world).triangles, of_own) || has_one(world.obstacle.triangles, of_obstacle);
 }
 
 } // namespace
