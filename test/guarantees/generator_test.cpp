@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "support/meshes.h"
+#include "support/tunnel_scene.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>

@@ -7,6 +7,7 @@
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
+#include "support/tunnel_scene.h"
 
 #include "verify/Diagonal.h"
 
