@@ -223,14 +223,23 @@ std::vector<char> triangles_that_stay(const World& world, const World_run& run)
   return result;
 }
 
-// Returns the normals of the original at each vertex.
-std::map<Index, std::vector<Normal>> normals_at_vertices(const Triangle_soup& original,
-                                                         const Corner_values<3>& normals)
+// A vertex, and what its corners of one fan have in the prepared original, if that has normals.
+using Fan = std::pair<Index, Index>;
+
+Fan fan_of(const Triangle_soup& original, Index corner)
 {
-  std::map<Index, std::vector<Normal>> result;
+  return {original.triangles[corner / 3][corner % 3],
+          original.normals.empty() ? 0 : original.normals.of_triangle[corner / 3][corner % 3]};
+}
+
+// Returns the normals of the original in each fan.
+std::map<Fan, std::vector<Normal>> normals_of_fans(const Triangle_soup& original,
+                                                   const Corner_values<3>& normals)
+{
+  std::map<Fan, std::vector<Normal>> result;
   for (Index t = 0; t < original.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3 && normals.of_triangle[t][0] != normals.missing; ++k)
-      result[original.triangles[t][k]].push_back(normal_of(normals, t, k));
+      result[fan_of(original, Index(3 * t + k))].push_back(normal_of(normals, t, k));
   return result;
 }
 
@@ -247,9 +256,9 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
   if (!is_picked && run.prepared.normals != Normals_treatment::fitted)
     return std::nullopt;
   const Corner_values<3>& normals = is_picked ? run.prepared.taken_normals : original.normals;
-  std::map<Index, std::vector<Normal>> at_vertices;
+  std::map<Fan, std::vector<Normal>> of_fans;
   if (is_picked)
-    at_vertices = normals_at_vertices(original, normals);
+    of_fans = normals_of_fans(original, normals);
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
   const std::set<Position> on_borders = positions_on_borders(result), changes = positions_of_changes(run);
@@ -276,7 +285,7 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
       const Index vertex = original.triangles[corner / 3][corner % 3];
       std::vector<Normal> old = {normal_of(normals, corner / 3, corner % 3)};
       if (is_picked && !is_left) {
-        old = at_vertices[vertex];
+        old = of_fans[fan_of(original, corner)];
         if (old.empty())
           old.push_back(normal_of(normals, t, k));
       }
@@ -289,11 +298,11 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
       double nearest = -1;
       for (const Normal& normal : old)
         nearest = std::max(nearest, side * cosine(normal, result, i));
-      // On a border, it is far from the old one, or from one that was mended. With `picked`, that was the one
-      // nearest to the triangle's; at soft vertices of `softened`, it may be any.
+      // On a border, it is far from the old one, or from one that was mended. If that was picked, it was the
+      // nearest to that of the triangle, or one that is nearly like it.
       const auto may_give_way = [&](const Normal& normal) {
-        const bool may_be_picked = run.prepared.normals != Normals_treatment::picked || is_left ||
-                                   !(side * cosine(normal, result, i) < nearest - margin);
+        const bool may_be_picked =
+            !is_picked || is_left || !(side * cosine(normal, result, i) < nearest - 0.01);
         return may_be_picked && !(cosine(now, normal) >= s_cosine_of_border + margin);
       };
       const auto may_be_mended = [&](const Normal& normal) {
