@@ -4,12 +4,14 @@
 #ifndef SELVEDGE_MISSED_TARGET_H
 #define SELVEDGE_MISSED_TARGET_H
 
+#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
 #include <selvedge/compare.h>
 #include <selvedge/simplify.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -38,7 +40,10 @@ public:
   };
 
   /// `asked` are the options that the caller wants.
-  explicit Missed_target(Simplify_options asked) : m_options(std::move(asked)) {}
+  explicit Missed_target(Simplify_options asked) : m_options(std::move(asked))
+  {
+    m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
+  }
 
   /// Returns whether a result has used a quarter of the error that is allowed, if there is a limit above 0.
   static bool is_flattened(const Simplify_options& options, const Distance& original_to_result)

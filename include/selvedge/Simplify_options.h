@@ -9,10 +9,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace selvedge {
+namespace internal {
+class Remembered_refusals;
+} // namespace internal
 
 /// How far a reduction has come.
 struct Simplify_progress
@@ -64,8 +68,13 @@ struct Simplify_options
 
   /// Numbers of faces below which no target is, whatever ratios say: of the faces that belong to no part with
   /// a ratio of its own, then of those of each such part (`Simplify_intent::ratios`). What is not listed has
-  /// none. `Missed_target` sets them.
+  /// none. `Missed_target` sets them. The order of collapses is that of a reduction without them.
   std::vector<std::size_t> least_faces;
+
+  /// Where a reduction is done again, and begins like the one before, what the exact test refused then. It
+  /// saves time, and changes nothing else. `Missed_target` makes it. May be null. One reduction at a time may
+  /// use it.
+  std::shared_ptr<internal::Remembered_refusals> remembered_refusals;
 
   /// The largest distance E between the surfaces of the original and the result, as a share of the diagonal
   /// of the bounding box, at least 0. It is measured at every collapse, and holds at any time: from every

@@ -11,6 +11,7 @@
 #include "support/Temporary_folder.h"
 #include <selvedge/Error.h>
 #include <selvedge/Error_search.h>
+#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
 #include <selvedge/cells.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -322,6 +324,28 @@ Verdict judge_error_everywhere(const World& world, const World_run& run, Judgeme
   return broken;
 }
 
+// Reduces to more faces, which begins with the same collapses, and once more with what was refused before.
+Verdict judge_reduction_to_more_faces(const World& world, const World_run& run, Random& random)
+{
+  World twin = world;
+  twin.options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
+  if (auto broken = compare_bits(run_again(twin, run.prepared), run, "with a record of what is refused"))
+    return broken;
+  const Simplify_report& report = run.result.report;
+  twin.options.least_faces = {std::size_t(random.between(int(report.faces_output), int(report.faces_input)))};
+  const World_run with_record = run_again(twin, run.prepared);
+  twin.options.remembered_refusals.reset();
+  const World_run without = run_again(twin, run.prepared);
+  if (auto broken = compare_bits(with_record, without, "with what a longer reduction refused"))
+    return broken;
+  const bool is_one_share = world.intent.ratios.empty() && world.intent.kept.empty();
+  if (is_one_share && world.options.faces_per_cell == 0 &&
+      (without.collapses.size() > run.collapses.size() ||
+       !std::equal(without.collapses.begin(), without.collapses.end(), run.collapses.begin())))
+    return Broken_promise{Promise::determinism, "a reduction to more faces begins with other collapses"};
+  return std::nullopt;
+}
+
 } // namespace
 
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
@@ -388,6 +412,11 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   if (is_limited && !world.options.guarded_poses && !run.result.soup.triangles.empty() && random.one_in(4)) {
     ++counts.twins;
     if (auto broken = judge_error_everywhere(world, run, counts, extent))
+      return broken;
+  }
+  if (random.one_in(2)) {
+    ++counts.twins;
+    if (auto broken = judge_reduction_to_more_faces(world, run, random))
       return broken;
   }
   if (random.one_in(8) && !is_scene && world.soup.poses.empty()) {

@@ -17,6 +17,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,9 @@ public:
   template <class Profile>
   void consider(const Collapse<Profile>& collapse)
   {
+    if (m_known && m_known == question(collapse))
+      return;
+    m_known.reset();
     m_is_concerned = m_descent.is_needed() && find_changes(collapse);
   }
 
@@ -105,8 +109,10 @@ public:
   template <class Profile>
   bool is_number_kept(const Collapse<Profile>& collapse, std::vector<Face>& blockers)
   {
-    if (!m_is_concerned || find_pairs_after(collapse, m_descent.pairs_now()))
+    if (!m_is_concerned || find_pairs_after(collapse, m_descent.pairs_now())) {
+      m_known = question(collapse);
       return true;
+    }
     for (const auto& [changed, other] : m_pairs_after)
       if (std::find(m_considered.begin(), m_considered.end(), other) == m_considered.end())
         blockers.push_back(m_faces.descriptor(other));
@@ -117,16 +123,27 @@ public:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
-    if (m_is_concerned)
+    if (m_is_concerned && !m_known)
       find_pairs_after(collapse);
   }
   void after_collapse()
   {
+    m_known.reset();
     if (m_is_concerned)
       m_descent.on_collapsed(m_changed_ids, m_pairs_after);
   }
 
 private:
+  // What distinguishes one collapse from others of the same mesh; none where vertices move together.
+  using Question = std::optional<std::tuple<Halfedge, bool, typename Vertices::Point>>;
+  template <class Profile>
+  static Question question(const Collapse<Profile>& collapse)
+  {
+    if (!collapse.others().empty())
+      return {};
+    return std::tuple(collapse.moving(), collapse.are_both_moved(), collapse.place());
+  }
+
   // Finds the faces that a collapse changes or removes. Returns whether they descend from offending ones.
   template <class Profile>
   bool find_changes(const Collapse<Profile>& collapse)
@@ -233,6 +250,7 @@ private:
   Descent m_descent;
   bool m_is_concerned = false;
   bool m_has_degenerate = false; // whether a face that the collapse removes is degenerate
+  Question m_known;              // the collapse of which all that is asked here is known
 
   // Buffers, so that a question allocates nothing.
   std::vector<Id> m_considered, m_changed_ids; // the faces that a collapse changes or removes; changes alone

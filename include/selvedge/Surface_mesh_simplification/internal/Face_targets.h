@@ -46,6 +46,7 @@ public:
     std::size_t fixed = 0; ///< of these, those that cannot change, because all their corners are locked
     std::size_t target = 0;
     std::size_t least = 0; ///< what no target is below
+    std::size_t asked = 0; ///< the target without this limit
 
     /// Returns the target for a ratio of the faces that it has now: the ratio is of those that are not fixed.
     std::size_t at_ratio(double ratio) const
@@ -63,9 +64,15 @@ public:
   void set_target(std::size_t number, std::size_t target)
   {
     Share& share = m_state->shares[number];
+    share.asked = target;
     share.target = (std::max)(share.least, target);
   }
-  void set_least(std::size_t number, std::size_t faces) { m_state->shares[number].least = faces; }
+  void set_least(std::size_t number, std::size_t faces)
+  {
+    Share& share = m_state->shares[number];
+    share.least = faces;
+    share.target = (std::max)(faces, share.target);
+  }
 
   bool has_several_shares() const { return m_state->shares.size() > 1; }
 
@@ -171,6 +178,15 @@ public:
     std::size_t total = 0;
     for (const Share& share : m_state->shares)
       total += share.excess();
+    return total;
+  }
+
+  /// The same for the targets as they were asked for.
+  std::size_t total_excess_asked() const
+  {
+    std::size_t total = 0;
+    for (const Share& share : m_state->shares)
+      total += share.faces - (std::min)(share.faces, share.asked);
     return total;
   }
 

@@ -13,10 +13,12 @@
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/internal/Border_partners.h>
+#include <selvedge/Surface_mesh_simplification/internal/Element_numbers.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Further_poses.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Reduction_setup.h>
+#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
 #include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
 
@@ -33,7 +35,8 @@ namespace selvedge {
 namespace internal {
 
 /// Says whether a reduction allows a collapse: the chain of all its filters. The cheap limits are asked
-/// first, in the mesh's own pose and in all others, and then the exact test in each of them.
+/// first, in the mesh's own pose and in all others. Then come the error and the exact test, of which the one
+/// that has refused more is asked before the other, and the exact test in other poses.
 ///
 /// It has what the filters ask, and keeps that in step with the mesh: the border rule, the face targets, the
 /// partners of border vertices, the tracked points. It counts what each filter refuses, and names the first
@@ -111,7 +114,7 @@ private:
   using Aspect_ratio = Aspect_ratio_filter<Target, Is_of_strip>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
-  using Error = Error_filter<Tracked_points<TriangleMesh>, Uv>;
+  using Error = Error_filter<Tracked_points<TriangleMesh>>;
   using Intersection =
       Intersection_filter<TriangleMesh, No_filter, Selectable_index, VertexPointMap, Geom_traits>;
 
@@ -128,7 +131,7 @@ public:
         m_aspect_ratio(m_options.min_aspect_ratio, m_target, {&m_mesh, m_rule}),
         m_normal_change(m_options.max_normal_change, m_aspect_ratio),
         m_uv({m_options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change),
-        m_tracked(m_mesh), m_error(setup.max_error, m_tracked, m_uv), m_poses(setup, {&m_mesh, m_rule}),
+        m_tracked(m_mesh), m_error(setup.max_error, m_tracked), m_poses(setup, {&m_mesh, m_rule}),
         m_constraints(setup.constraints), m_diagonal(setup.diagonal), m_max_error(setup.max_error)
   {
   }
@@ -163,6 +166,8 @@ public:
     if (m_options.clearance)
       m_intersection->keep_clearance(*m_options.clearance, m_constraints.uncounted_faces);
     m_visitor = m_intersection->visitor();
+    if (m_options.remembered_refusals)
+      m_options.remembered_refusals->begin();
     m_poses.build_index([this] { return empty_index(); }, m_constraints, m_options.clearance);
   }
 
@@ -170,28 +175,17 @@ public:
   template <class Profile>
   bool allows_shape(const Collapse<Profile>& collapse) const
   {
-    return m_error.allows(collapse) && m_poses.allows_shape(collapse);
+    return m_uv.allows(collapse) && m_error.allows(collapse) && m_poses.allows_shape(collapse);
   }
 
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
     m_blockers = nullptr;
-    if (!allows_shape(collapse))
-      return false;
-    if (!m_intersection)
-      return true;
-    if (!m_intersection->accepts(collapse)) {
-      ++m_refused_by_contact;
-      m_refused_by_clearance += m_intersection->is_clearance_lacking();
-      m_blockers = &m_intersection->blockers();
-      return false;
-    }
-    if (m_poses.is_clear(collapse))
-      return true;
-    m_refused_by_clearance += m_poses.is_clearance_lacking();
-    m_blockers = &m_poses.blockers();
-    return false;
+    const bool is_error_last = m_error.refusals() < m_refused_by_contact;
+    return m_uv.allows(collapse) && (is_error_last || m_error.allows(collapse)) &&
+           m_poses.allows_shape(collapse) && is_clear(collapse) &&
+           (!is_error_last || m_error.allows(collapse));
   }
 
   /// Returns the faces because of which the exact test refused the last collapse, if that refused it.
@@ -307,6 +301,60 @@ public:
   }
 
 private:
+  // Whether the exact test allows a collapse in every pose.
+  template <class Profile>
+  bool is_clear(const Collapse<Profile>& collapse)
+  {
+    if (!m_intersection)
+      return true;
+    if (!is_clear_or_remembered(collapse)) {
+      ++m_refused_by_contact;
+      m_refused_by_clearance += m_is_clearance_lacking;
+      return false;
+    }
+    if (m_poses.is_clear(collapse))
+      return true;
+    m_refused_by_clearance += m_poses.is_clearance_lacking();
+    m_blockers = &m_poses.blockers();
+    return false;
+  }
+
+  // Whether the exact test allows it in the mesh's own pose. What was refused before is not asked again.
+  template <class Profile>
+  bool is_clear_or_remembered(const Collapse<Profile>& collapse)
+  {
+    if constexpr (Are_numbers<Halfedge>::value && Are_numbers<Face>::value)
+      if (Remembered_refusals* const memory = m_options.remembered_refusals.get()) {
+        using Number = Remembered_refusals::Number;
+        const Number question = 2 * Number(collapse.moving()) + collapse.are_both_moved();
+        if (const auto refusal = memory->refusal(question)) {
+          m_remembered_blockers.clear();
+          for (const Number face : refusal->blockers)
+            m_remembered_blockers.push_back(Face(face));
+          m_blockers = &m_remembered_blockers;
+          m_is_clearance_lacking = refusal->is_clearance_lacking;
+          return false;
+        }
+        const bool is_clear = is_clear_in_own_pose(collapse);
+        if (is_clear)
+          memory->add_accepted(question);
+        else
+          memory->add_refused(question, {m_is_clearance_lacking, {m_blockers->begin(), m_blockers->end()}});
+        return is_clear;
+      }
+    return is_clear_in_own_pose(collapse);
+  }
+
+  template <class Profile>
+  bool is_clear_in_own_pose(const Collapse<Profile>& collapse)
+  {
+    if (m_intersection->accepts(collapse))
+      return true;
+    m_blockers = &m_intersection->blockers();
+    m_is_clearance_lacking = m_intersection->is_clearance_lacking();
+    return false;
+  }
+
   Selectable_index empty_index() const
   {
     Clustered_AABB_tree clustered(m_options.faces_per_cluster); // made in any case, so that 0 is refused
@@ -335,6 +383,8 @@ private:
   std::optional<Intersection> m_intersection;
   std::optional<typename Intersection::Visitor> m_visitor; // of that filter
   const std::vector<Face>* m_blockers = nullptr;
+  std::vector<Face> m_remembered_blockers;
+  bool m_is_clearance_lacking = false;    // of what the exact test refused last in the mesh's own pose
   std::size_t m_refused_by_contact = 0;   // or by lack of clearance, in the mesh's own pose
   std::size_t m_refused_by_clearance = 0; // in any pose
 };

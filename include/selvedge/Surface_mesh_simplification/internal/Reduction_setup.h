@@ -92,12 +92,12 @@ struct Reduction_setup
     for (const auto face : constraints.uncounted_faces)
       targets.leave_out(face);
     targets.fix(locked_vertices);
-    for (std::size_t i = 0; i < (std::min)(options.least_faces.size(), targets.shares().size()); ++i)
-      targets.set_least(i, options.least_faces[i]);
     for (std::size_t i = 0; i < constraints.shares.size(); ++i)
       targets.set_target(i + 1, targets.share(i + 1).at_ratio(constraints.shares[i].ratio));
     const std::size_t by_ratio = options.ratio ? targets.share(0).at_ratio(*options.ratio) : 0;
     targets.set_target(0, (std::max)(options.faces.value_or(0), by_ratio));
+    for (std::size_t i = 0; i < (std::min)(options.least_faces.size(), targets.shares().size()); ++i)
+      targets.set_least(i, options.least_faces[i]);
     return targets;
   }
 

@@ -206,7 +206,7 @@ private:
         const std::size_t collapses_before = m_report.collapses;
         selvedge::edge_collapse(
             m_mesh, is_over(),
-            parameters::expected_collapses(is_target_known() ? targets().total_excess() / 2 : 0,
+            parameters::expected_collapses(is_target_known() ? targets().total_excess_asked() / 2 : 0,
                                            parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
                                                                                  .get_placement(places)
                                                                                  .vertex_point_map(m_points)
