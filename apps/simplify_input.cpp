@@ -98,15 +98,16 @@ private:
     m_result.log_header.dropped = m_request.dropped_attributes;
   }
 
-  // OBJ has normals apart from vertices: there, several vertices at one place mean something.
-  void join_without_normals(Mesh_file& file)
+  void suit_normals_of(Mesh_file& file)
   {
-    if (!has_normals_of_vertices(file.format))
+    m_normals = m_request.normals;
+    if (m_normals == Normals_choice::automatic && !m_request.progressive.empty())
+      return; // the file has one normal for each vertex, and lines stay
+    const Suited_normals suited = suit_normals(file.soup, m_normals, has_normals_of_vertices(file.format));
+    m_normals = suited.choice;
+    if (suited.joined_corners == 0)
       return;
-    const std::size_t joined = share_vertices_without_normals(file.soup, m_normals);
-    if (joined == 0)
-      return;
-    file.notes.remarks[remark_on_joined_corners] += joined;
+    file.notes.remarks[remark_on_joined_corners] += suited.joined_corners;
     m_result.log_header.normals = shared_normals(m_normals);
   }
 
@@ -164,9 +165,7 @@ private:
     }
     drop_parts_of(file);
     drop_attributes_of(file);
-    m_normals = m_request.progressive.empty() ? suited_to(file.soup, m_request.normals) : m_request.normals;
-    if (joins_vertices(m_normals))
-      join_without_normals(file);
+    suit_normals_of(file);
     m_result.report = input_json(m_request.input, file);
     check_pose_outputs(file.soup.poses);
     require_one_rounding(file.soup);

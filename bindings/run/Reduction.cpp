@@ -44,16 +44,15 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   header.triangles = input.triangles.size();
   header.dropped_parts = request.dropped_parts;
   m_numbers = drop_parts(input, request.dropped_parts).triangles;
-  const Normals_choice normals = suited_to(input, request.prepare.normals);
-  if (has_normals_of_vertices && joins_vertices(normals) &&
-      share_vertices_without_normals(input, normals) > 0)
-    header.normals = shared_normals(normals);
+  const Suited_normals normals = suit_normals(input, request.prepare.normals, has_normals_of_vertices);
+  if (normals.joined_corners > 0)
+    header.normals = shared_normals(normals.choice);
   m_input_triangles = input.triangles;
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   Prepare_options prepare_options = request.complete_prepare_options();
-  prepare_options.normals = normals;
+  prepare_options.normals = normals.choice;
   prepare_options.may_intersect = parts_in_pairs(input, request.may_intersect, "may_intersect");
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);

@@ -7,13 +7,13 @@
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/normals.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace selvedge {
 
 /// Returns, in place of `Normals_choice::automatic`, `loose` for a soup of which hardly any line that normals
-/// make would be missed, `soft` for one of which some would not, and the choice as it is for any other. The
-/// program and the bindings take this.
+/// make would be missed, `soft` for one of which some would not, and the choice as it is for any other.
 ///
 /// Lines that normals make are edges of two triangles across which normals differ, by more than 0.1°, and
 /// neither texture coordinates nor labels do. Those that hang together are *hard* if they are at least three
@@ -25,6 +25,20 @@ namespace selvedge {
 ///
 /// **Complexity** O(n) expected for n triangles.
 Normals_choice suited_to(const Triangle_soup& soup, Normals_choice choice);
+
+/// What `suit_normals` has found and done.
+struct Suited_normals
+{
+  Normals_choice choice = Normals_choice::automatic; ///< that of `suited_to`
+  std::size_t joined_corners = 0;                    ///< by `share_vertices_without_normals`
+};
+
+/// Makes a soup from a file ready for the choice that suits it (`suited_to`): where this joins vertices
+/// (`joins_vertices`), and the file has one normal for each, triangles share those that differ in their
+/// normals alone (`share_vertices_without_normals`). The program and the bindings do this before `prepare`.
+///
+/// **Complexity** O(n) expected for n triangles.
+Suited_normals suit_normals(Triangle_soup& soup, Normals_choice choice, bool has_normals_of_vertices);
 
 /// Returns which vertices are at positions on soft lines that normals make; empty if none is.
 ///

@@ -265,18 +265,15 @@ Contents contents_of(const Mesh_file& file)
 Inspection inspect(Triangle_soup soup, bool has_normals_of_vertices)
 {
   Prepare_options options;
-  options.normals = suited_to(soup, Normals_choice::automatic);
+  const std::size_t used = count_of_used_vertices(soup);
+  const Suited_normals normals = suit_normals(soup, Normals_choice::automatic, has_normals_of_vertices);
+  const std::size_t joined_vertices = used - count_of_used_vertices(soup);
+  options.normals = normals.choice;
   options.open_seams = Open_seams::measure;
-  std::size_t joined_vertices = 0, joined_corners = 0;
-  if (has_normals_of_vertices && joins_vertices(options.normals)) {
-    const std::size_t used = count_of_used_vertices(soup);
-    joined_corners = share_vertices_without_normals(soup, options.normals);
-    joined_vertices = used - count_of_used_vertices(soup);
-  }
   const Prepared_soup prepared = prepare(std::move(soup), options);
   Inspection result = Inspector(prepared).run();
   result.unused_vertices -= joined_vertices;
-  result.joined_corners = joined_corners;
+  result.joined_corners = normals.joined_corners;
   return result;
 }
 

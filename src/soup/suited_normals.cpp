@@ -207,6 +207,13 @@ Normals_choice suited_to(const Triangle_soup& soup, Normals_choice choice)
   return networks.are_on_soft_lines().empty() ? choice : Normals_choice::soft;
 }
 
+Suited_normals suit_normals(Triangle_soup& soup, Normals_choice choice, bool has_normals_of_vertices)
+{
+  const Normals_choice suited = suited_to(soup, choice);
+  const bool is_joined = has_normals_of_vertices && joins_vertices(suited);
+  return {suited, is_joined ? share_vertices_without_normals(soup, suited) : 0};
+}
+
 std::vector<char> are_on_soft_lines(const Triangle_soup& soup)
 {
   return may_have_lines(soup) ? Line_networks(soup).are_on_soft_lines() : std::vector<char>();

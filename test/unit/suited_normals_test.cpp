@@ -3,6 +3,7 @@
 
 // Lines of normals that nobody sees as edges hold no vertices.
 
+#include "soup/flat_shading.h"
 #include "support/soups.h"
 
 #include <selvedge/suited_normals.h>
@@ -198,6 +199,23 @@ TEST(Soft_lines, AreLeftWhereHardOnesLieBetweenGroups)
   for (const Index_triple& numbers : soup.normals.of_triangle)
     soup.groups.of_triangle.push_back(soup.normals.values[numbers[1]][0] > 0);
   EXPECT_TRUE(are_lines_soft(soup));
+}
+
+TEST(Soft_lines, HoldNoVerticesApartThatDifferInTheirNormalsAlone)
+{
+  const auto suited = [](Normals_choice choice, bool has_normals_of_vertices) {
+    Triangle_soup soup = split_by_normals(creased(5));
+    const std::vector<Index_triple> before = soup.triangles;
+    const Suited_normals result = suit_normals(soup, choice, has_normals_of_vertices);
+    EXPECT_EQ(result.joined_corners, corners_changed(before, soup.triangles));
+    return result;
+  };
+  EXPECT_EQ(suited(Normals_choice::automatic, true).choice, Normals_choice::loose);
+  EXPECT_GT(suited(Normals_choice::automatic, true).joined_corners, 0u);
+  EXPECT_GT(suited(Normals_choice::drop, true).joined_corners, 0u);
+  EXPECT_EQ(suited(Normals_choice::automatic, false).choice, Normals_choice::loose);
+  EXPECT_EQ(suited(Normals_choice::automatic, false).joined_corners, 0u);
+  EXPECT_EQ(suited(Normals_choice::keep, true).joined_corners, 0u);
 }
 
 TEST(Soft_lines, LetOtherChoicesStay)
