@@ -216,8 +216,8 @@ bool has_flat_normals(const Triangle_soup& soup)
 {
   if (soup.normals.empty() || soup.normals.missing)
     return false;
-  std::size_t judged = 0, flat = 0;
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
+  std::size_t judged = 0, others = 0;
+  for (Index t = 0; t < soup.triangles.size() && 100 * others <= 3 * soup.triangles.size(); ++t) {
     const Vector normal = unit_normal(soup, t);
     if (normal == Vector{})
       continue;
@@ -227,10 +227,10 @@ bool has_flat_normals(const Triangle_soup& soup)
                                is_within(value(0), normal, s_cosine_of_polygon);
     for (int k = 0; k < 3; ++k) {
       ++judged;
-      flat += is_of_polygon || is_within(value(k), normal, s_cosine_flat);
+      others += !is_of_polygon && !is_within(value(k), normal, s_cosine_flat);
     }
   }
-  return judged > 0 && 100 * flat >= 99 * judged;
+  return judged > 0 && 100 * others <= judged;
 }
 
 Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* taken)
