@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SRC_CELLS_PLY_ROWS_H
 #define SELVEDGE_SRC_CELLS_PLY_ROWS_H
 
+#include "files/Ply_header.h"
+
 #include <selvedge/Triangle_soup.h>
 
 #include <boost/interprocess/file_mapping.hpp>
@@ -33,8 +35,14 @@ public:
   /// The lines of the header that declare the properties of vertices and of faces.
   const std::string& vertex_properties() const { return m_vertices.declarations; }
   const std::string& face_properties() const { return m_faces.declarations; }
-  bool has_vertex_property(std::string_view name) const { return m_vertices.find(name) != nullptr; }
-  bool has_face_property(std::string_view name) const { return m_faces.find(name) != nullptr; }
+  bool has_vertex_property(std::string_view name) const
+  {
+    return m_vertices.find(name) < m_vertices.properties.size();
+  }
+  bool has_face_property(std::string_view name) const
+  {
+    return m_faces.find(name) < m_faces.properties.size();
+  }
 
   /// The comments of the header, as lines with their keywords.
   const std::string& comments() const { return m_comments; }
@@ -65,22 +73,6 @@ public:
   void set_corner(std::string& row, const Face& face, std::size_t i, Index number) const;
 
 private:
-  struct Property
-  {
-    std::string name;
-    Attribute::Type type = Attribute::Type::float32;
-    std::optional<Attribute::Type> count_type; // of a list
-  };
-  struct Element
-  {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<Property> properties;
-    std::string declarations;
-
-    const Property* find(std::string_view property) const;
-  };
-
   explicit Ply_rows(const std::filesystem::path& path);
   bool read_header();
   [[noreturn]] void fail(const std::string& message) const;
@@ -88,7 +80,7 @@ private:
   std::string m_name;
   boost::interprocess::mapped_region m_region;
   std::string_view m_bytes;
-  Element m_vertices, m_faces;
+  files::Ply_element m_vertices, m_faces;
   std::size_t m_corners_property = 0; // of m_faces
   std::size_t m_places[3] = {};       // of x, y and z in the row of a vertex
   bool m_is_float32 = false;

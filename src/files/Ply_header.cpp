@@ -87,6 +87,7 @@ private:
   {
     if (m_header.elements.empty())
       m_text.fail("a property stands before the first element; the header is damaged");
+    m_header.elements.back().declarations += "property " + std::string(Text_reader(m_text).line()) + '\n';
     Ply_property property;
     std::string_view type = m_text.word();
     if (type == "list") {

@@ -29,6 +29,7 @@ struct Ply_element
   std::string name;
   std::uint64_t count = 0;
   std::vector<Ply_property> properties;
+  std::string declarations; ///< the lines of the header that declare the properties
 
   /// Returns the place of a property, or their number if there is none of this name.
   std::size_t find(std::string_view property) const;
