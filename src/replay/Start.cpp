@@ -36,6 +36,30 @@ std::vector<Index> drop_from(Triangle_soup& soup, const Parts_to_drop& parts)
   }
 }
 
+void treat_normals(Triangle_soup& soup, Logged_normals normals)
+{
+  for (const Normals_choice choice :
+       {Normals_choice::drop, Normals_choice::smooth, Normals_choice::soft, Normals_choice::loose})
+    if (normals == shared_normals(choice))
+      share_vertices_without_normals(soup, choice);
+  switch (normals) {
+  case Logged_normals::kept:
+    return;
+  case Logged_normals::joined:
+    return join_near_normals(soup);
+  case Logged_normals::hard:
+    return join_normals_between_hard_edges(soup);
+  case Logged_normals::smooth:
+  case Logged_normals::smooth_shared:
+    return smooth_normals(soup);
+  case Logged_normals::soft:
+  case Logged_normals::soft_shared:
+    return loosen_soft_lines(soup);
+  default:
+    soup.normals = {};
+  }
+}
+
 void leave_out_needless(Start& start)
 {
   const std::vector<Index> first = first_at_position(start.soup.points);
@@ -134,6 +158,41 @@ std::vector<Index> first_at_position_of_both(std::vector<Point_3> points, const 
   return first_at_position(points);
 }
 
+// Returns which triangles are frozen because rounding alone has made several positions one.
+std::vector<char> are_at_merged_positions(const Start& start, const std::vector<Index>& first,
+                                          const std::vector<Index>& before)
+{
+  std::vector<char> is_merged(first.size(), false), result(start.numbers.size(), false);
+  for (Index v = 0; v < first.size(); ++v)
+    if (before[v] != before[first[v]])
+      is_merged[first[v]] = true;
+  for (Index t = 0; t < start.soup.triangles.size(); ++t)
+    for (const Index v : start.soup.triangles[t])
+      result[t] = result[t] || is_merged[first[v]];
+  return result;
+}
+
+// Counts the pairs that are not permitted, which descend, or freeze their triangles.
+void add_pairs(Start& start, const std::vector<Offending_pair>& pairs, bool may_descend,
+               std::vector<char>& is_frozen)
+{
+  for (const Offending_pair& pair : pairs) {
+    if (start.is_permitted(pair.first, pair.second))
+      continue;
+    ++start.offending_pairs;
+    if (pair.first >= start.soup.triangles.size())
+      continue; // the obstacle stays as it is
+    if (!may_descend)
+      is_frozen[pair.first] = is_frozen[pair.second] = true;
+    const Index f = start.fronts[pair.first], g = start.fronts[pair.second];
+    if (f == g && pair.first != pair.second)
+      continue; // a double offends with its front wherever they go
+    if (may_descend && f != g && f == pair.first && g == pair.second)
+      start.lineage.add_pair(f, g); // a degenerate face exempts nothing
+    start.offences.add(f, g);
+  }
+}
+
 } // namespace
 
 Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, const Log_header& header,
@@ -143,18 +202,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   start.soup = original;
   start.numbers = drop_from(start.soup, header.dropped_parts);
   drop_attributes(start.soup, header.dropped);
-  for (const Normals_choice choice :
-       {Normals_choice::drop, Normals_choice::smooth, Normals_choice::soft, Normals_choice::loose})
-    if (header.normals == shared_normals(choice))
-      share_vertices_without_normals(start.soup, choice);
-  const bool are_smooth =
-      header.normals == Logged_normals::smooth || header.normals == Logged_normals::smooth_shared;
-  if (are_smooth)
-    smooth_normals(start.soup);
-  const bool are_soft =
-      header.normals == Logged_normals::soft || header.normals == Logged_normals::soft_shared;
-  if (are_soft)
-    loosen_soft_lines(start.soup);
+  treat_normals(start.soup, header.normals);
   start.soup.poses.clear();
   Triangle_soup beside;
   beside.points = pose ? points_in_pose(obstacle, *pose) : obstacle.points;
@@ -166,53 +214,23 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
     start.points_of_first_pose = std::move(first.points);
     start.soup.points = original.poses[*pose].points;
   }
-  if (header.normals == Logged_normals::joined)
-    join_near_normals(start.soup);
-  else if (header.normals == Logged_normals::hard)
-    join_normals_between_hard_edges(start.soup);
-  else if (header.normals != Logged_normals::kept && !are_smooth && !are_soft)
-    start.soup.normals = {};
   leave_out_needless(start);
   const std::vector<Index> before = first_at_position_of_both(start.soup.points, beside.points);
   if (header.is_rounded_to_float32) {
     round_to_float32(start.soup);
     leave_out_needless(start);
   }
-  const Index own_triangles = Index(start.soup.triangles.size());
   const std::vector<Index> first = first_at_position_of_both(start.soup.points, beside.points);
   add_obstacle(start, beside, first, Index(original.triangles.size()));
   find_parts(start, header);
-  std::vector<char> is_frozen(start.numbers.size(), false);
-  // Where rounding alone has made several positions one, the faces there are frozen.
-  std::vector<char> is_merged(first.size(), false);
-  for (Index v = 0; v < first.size(); ++v)
-    if (before[v] != before[first[v]])
-      is_merged[first[v]] = true;
-  for (Index t = 0; t < own_triangles; ++t)
-    for (const Index v : start.soup.triangles[t])
-      is_frozen[t] = is_frozen[t] || is_merged[first[v]];
+  std::vector<char> is_frozen = are_at_merged_positions(start, first, before);
   const std::vector<Offending_pair> pairs = offending_pairs(geometry_with_obstacle(start.soup, beside));
   find_fronts(start, header, first, is_frozen);
-  for (const Offending_pair& pair : pairs) {
-    if (start.is_permitted(pair.first, pair.second))
-      continue;
-    ++start.offending_pairs;
-    if (pair.first >= own_triangles)
-      continue; // the obstacle stays as it is
-    if (!header.may_pairs_descend)
-      is_frozen[pair.first] = is_frozen[pair.second] = true;
-    const Index f = start.fronts[pair.first], g = start.fronts[pair.second];
-    if (f == g && pair.first != pair.second)
-      continue; // a double offends with its front wherever they go
-    if (header.may_pairs_descend && f != g && f == pair.first && g == pair.second)
-      start.lineage.add_pair(f, g); // a degenerate face exempts nothing
-    start.offences.add(f, g);
-  }
+  add_pairs(start, pairs, header.may_pairs_descend, is_frozen);
   start.is_locked.assign(first.size(), false);
-  for (Index t = 0; t < own_triangles; ++t) {
+  for (Index t = 0; t < start.soup.triangles.size(); ++t)
     for (const Index v : start.soup.triangles[t])
       start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
-  }
   for (const std::array<Place, 3>& triangle : start.obstacle)
     for (const Place& corner : triangle)
       start.is_locked[corner.id] = true;

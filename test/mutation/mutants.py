@@ -291,7 +291,7 @@ group("src/soup/smooth_normals.cpp", ("smooth_normals_test",),
       ("angle * fronts[corner / 3][i]", "fronts[corner / 3][i]", "smooth normals lean to where many faces meet"),
       ("  if (soup.scene)\n    add_normals_to_scene(soup);\n", "", "scenes without normals stay without"))
 group("src/replay/Start.cpp", ("smooth_normals_test",),
-      ("  if (are_smooth)\n    smooth_normals(start.soup);\n", "", "the replay does not make normals smooth"))
+      ("return smooth_normals(soup);", "return;", "the replay does not make normals smooth"))
 group("src/soup/vertex_normals.cpp", ("vertex_normals_test",),
       ("    if (!fronts.empty() && fronts[t] != t)\n      continue;\n", "", "doubles count in the normals of vertices"),
       ("is_turned[t] ? -1 : 1", "is_turned[t] ? 1 : 1", "turned faces count as they came"),
@@ -780,7 +780,7 @@ group(
 group(
     "src/replay/Start.cpp",
     ("descent_test",),
-    ("if (!header.may_pairs_descend)", "if (false)", "pairs may descend in any log"),
+    ("if (!may_descend)", "if (false)", "pairs may descend in any log"),
 )
 group(
     "src/replay/replay.cpp",
