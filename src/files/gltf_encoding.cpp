@@ -273,6 +273,80 @@ bool is_same_but_split(const Contents& contents, const Contents& again)
                        contents.vertices.end());
 }
 
+/// A primitive in Draco's bytes.
+struct Encoded
+{
+  std::string bytes;
+  std::size_t vertices = 0;
+};
+
+/// Returns a primitive with its vertices and triangles in their order; none if Draco does not give them back.
+/// What quantisation does not give back as it was is kept without it, and `columns` say so then.
+std::optional<Encoded> encoded_in_order(std::vector<Packed_column>& columns,
+                                        const std::vector<Index>& corners,
+                                        const std::vector<std::uint32_t>& copies)
+{
+  const auto rows = std::uint32_t(copies.size());
+  for (;;) {
+    Cancellation_scope::check();
+    const std::unique_ptr<draco::Mesh> mesh = draco_mesh(columns, corners, copies, 0);
+    std::string bytes = encoded(*mesh, columns, draco::MESH_SEQUENTIAL_ENCODING, 0);
+    const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
+    if (!again || again->num_points() != rows)
+      return std::nullopt;
+    for (draco::FaceIndex i(0); i < mesh->num_faces(); ++i)
+      if (again->face(i) != mesh->face(i))
+        return std::nullopt;
+    bool is_same = true;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::uint32_t row = 0;
+      while (row < rows &&
+             row_of(*again, mesh->attribute(int(i))->unique_id(), row) == columns[i].column->row(row))
+        ++row;
+      if (row == rows)
+        continue;
+      if (!columns[i].quantisation)
+        return std::nullopt;
+      columns[i].quantisation.reset();
+      is_same = false;
+    }
+    if (is_same)
+      return Encoded{std::move(bytes), rows};
+  }
+}
+
+/// Takes Draco's order instead, where that takes less space. How much depends on the column that tells
+/// vertices apart, and on how values are predicted: 0 is best for smooth normals, 5 for flat ones.
+void reorder(Encoded& least, const std::vector<Packed_column>& columns, const std::vector<Index>& corners,
+             const std::vector<std::uint32_t>& copies)
+{
+  const bool are_all_different =
+      std::all_of(copies.begin(), copies.end(), [](std::uint32_t copy) { return copy == 0; });
+  std::optional<Contents> contents;
+  for (std::size_t apart = 0; apart < (are_all_different ? 1 : columns.size()); ++apart) {
+    Cancellation_scope::check();
+    const std::unique_ptr<draco::Mesh> mesh = draco_mesh(columns, corners, copies, apart);
+    std::string bytes;
+    for (const int speed : {0, 5}) {
+      std::string tried = encoded(*mesh, columns, draco::MESH_EDGEBREAKER_ENCODING, speed);
+      if (bytes.empty() || (!tried.empty() && tried.size() < bytes.size()))
+        bytes = std::move(tried);
+    }
+    if (bytes.size() >= least.bytes.size())
+      continue;
+    if (!contents)
+      contents = contents_of(*mesh, columns.size(),
+                             [&](std::size_t i, std::uint32_t row) { return columns[i].column->row(row); });
+    // Edgebreaker makes several vertices of one at which fans of faces meet.
+    const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
+    if (again && is_same_but_split(*contents,
+                                   contents_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
+                                     return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
+                                   })))
+      least = {std::move(bytes), again->num_points()};
+  }
+}
+
 } // namespace
 #endif
 
@@ -291,68 +365,14 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
       packed.back().quantisation.reset();
   }
   const std::vector<std::uint32_t> copies = earlier_copies(packed, rows);
-  std::unique_ptr<draco::Mesh> mesh;
-  std::string bytes;
-  // In the same order: what quantisation does not give back as it was is kept without it.
-  for (bool is_same = false; !is_same;) {
-    Cancellation_scope::check();
-    mesh = draco_mesh(packed, corners, copies, 0);
-    bytes = encoded(*mesh, packed, draco::MESH_SEQUENTIAL_ENCODING, 0);
-    const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
-    if (!again || again->num_points() != rows)
-      return std::nullopt;
-    for (draco::FaceIndex i(0); i < mesh->num_faces(); ++i)
-      if (again->face(i) != mesh->face(i))
-        return std::nullopt;
-    is_same = true;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::uint32_t row = 0;
-      while (row < rows && row_of(*again, mesh->attribute(int(i))->unique_id(), row) == columns[i].row(row))
-        ++row;
-      if (row == rows)
-        continue;
-      if (!packed[i].quantisation)
-        return std::nullopt;
-      packed[i].quantisation.reset();
-      is_same = false;
-    }
-  }
-  std::size_t points = rows;
-  // In Draco's order, which takes less space. How much depends on the column that tells vertices apart, and
-  // on how values are predicted: 0 is best for smooth normals, 5 for flat ones.
-  const bool are_all_different =
-      std::all_of(copies.begin(), copies.end(), [](std::uint32_t copy) { return copy == 0; });
-  const std::size_t choices = !may_reorder ? 0 : are_all_different ? 1 : columns.size();
-  std::optional<Contents> contents;
-  for (std::size_t apart = 0; apart < choices; ++apart) {
-    Cancellation_scope::check();
-    mesh = draco_mesh(packed, corners, copies, apart);
-    std::string reordered;
-    for (const int speed : {0, 5}) {
-      std::string tried = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING, speed);
-      if (reordered.empty() || (!tried.empty() && tried.size() < reordered.size()))
-        reordered = std::move(tried);
-    }
-    if (reordered.size() >= bytes.size())
-      continue;
-    if (!contents)
-      contents = contents_of(*mesh, columns.size(),
-                             [&](std::size_t i, std::uint32_t row) { return columns[i].row(row); });
-    // Edgebreaker makes several vertices of one at which fans of faces meet.
-    const std::unique_ptr<draco::Mesh> again = decoded(reordered, *mesh);
-    if (!again || !is_same_but_split(
-                      *contents, contents_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
-                        return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
-                      })))
-      continue;
-    bytes = std::move(reordered);
-    points = again->num_points();
-  }
-  if (bytes.size() >= size)
+  std::optional<Encoded> least = encoded_in_order(packed, corners, copies);
+  if (least && may_reorder)
+    reorder(*least, packed, corners, copies);
+  if (!least || least->bytes.size() >= size)
     return std::nullopt;
-  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object(), points, 0};
+  Draco_primitive result = {std::move(least->bytes), Gltf_scene::Json::object(), least->vertices, 0};
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    result.attributes[columns[i].name] = mesh->attribute(int(i))->unique_id();
+    result.attributes[columns[i].name] = i; // `draco_mesh` adds them in this order
     result.unquantised += columns[i].compression->quantisation && !packed[i].quantisation;
   }
   return result;

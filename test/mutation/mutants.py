@@ -1203,11 +1203,11 @@ draco = ("gltf_compressed_test",)
 group(
     "src/files/gltf_encoding.cpp",
     draco,
-    ("packed[i].quantisation.reset();\n      is_same = false;", ";", "Draco's quantisation moves vertices"),
+    ("columns[i].quantisation.reset();\n      is_same = false;", ";", "Draco's quantisation moves vertices"),
     ("bytes.replace(place, steps.size(), box(origin, range));", ";", "the box of the quantisation is not put back"),
     ("i == apart ? copies[row] : 0", "std::uint32_t(apart * 0)",
      "Draco would make one vertex of those that differ in nothing, so that it may not reorder them"),
-    ("points = again->num_points();", ";", "accessors have too few vertices where Draco splits some"),
+    ("least = {std::move(bytes), again->num_points()};", "least.bytes = std::move(bytes);", "accessors have too few vertices where Draco splits some"),
 )
 group(
     "src/files/gltf_writer.cpp",
