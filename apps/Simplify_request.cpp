@@ -10,6 +10,7 @@
 #include "subcommands.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/Border_rule.h>
 #include <selvedge/cells.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/poses.h>
@@ -175,6 +176,12 @@ void check_use(const Simplify_request& request)
   if (request.faces_per_cluster && request.options.index != Face_index::clusters)
     throw Argument_error(
         "--cluster-size: the packed index has no clusters; leave it out, or give --index clusters");
+  if (request.corner_height && request.options.max_border_turn >= Border_rule_options::turn_of_low_corner)
+    throw Argument_error("--corner-height: with such a --border-turn, a border may turn as far at any corner "
+                         "as at a low one; leave out one of the two");
+  if (request.is_sewn && output_format(request) == Mesh_format::stl)
+    throw Argument_error("--sewn: an STL file has no vertices that could be merged; leave it out, or choose "
+                         "another format");
   if (request.instances != Instances::shared)
     return;
   const bool is_from_gltf = is_gltf(format_of(request.input, request.format));
@@ -433,6 +440,7 @@ void complete(Simplify_request& request)
   request.options.check_intersections = !request.is_unguarded;
   request.options.faces_per_cell = request.is_in_cells ? Simplify_options::default_faces_per_cell : 0;
   request.options.faces_per_cluster = request.faces_per_cluster.value_or(request.options.faces_per_cluster);
+  request.options.max_corner_height = request.corner_height.value_or(request.options.max_corner_height);
   request.options.instances = request.instances.value_or(request.options.instances);
   read_ratios(request);
   read_error(request);

@@ -201,13 +201,13 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option("--corner-height", options.max_corner_height,
+      .add_option("--corner-height", request.corner_height,
                   "Height up to which a corner of a border is low, as a share of the diagonal. There the "
                   "border may turn by 50 degrees, so that open ends of pipes lose vertices, too. 0 makes no "
                   "corner low.")
       ->check(in_range(0))
       ->type_name("D")
-      ->capture_default_str()
+      ->default_str("0.0025")
       ->group(limits);
   command
       .add_option("--seam-turn", options.max_seam_turn,

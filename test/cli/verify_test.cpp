@@ -316,6 +316,8 @@ TEST(App_verify, AcceptsWhatSimplifyMakesInEveryFormat)
     for (const char* const format : {"obj", "stl", "glb"}) {
       const std::string out = folder / (std::string("out.") + format);
       for (const bool is_sewn : {false, true}) {
+        if (is_sewn && format == std::string("stl"))
+          continue; // refused
         std::vector<std::string> command{"simplify", in, "-o", out, "--ratio", "0.3", "--quiet"};
         if (is_sewn)
           command.push_back("--sewn");
