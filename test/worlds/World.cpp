@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <sstream>
@@ -324,7 +325,17 @@ std::set<std::string> options_used(const World& world)
     options.insert("stopped_early");
   if (!world.soup.polygons.empty())
     options.insert("polygons");
+  if (tangents_of(world.soup))
+    options.insert("tangents");
   return options;
+}
+
+const Attribute* tangents_of(const Triangle_soup& soup)
+{
+  const auto& attributes = soup.vertex_attributes;
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [](const Attribute& attribute) { return attribute.name == "TANGENT"; });
+  return found == attributes.end() ? nullptr : &*found;
 }
 
 std::string describe(const World& world)

@@ -71,6 +71,9 @@ std::string command_line(const World& world);
 /// What of `command_line` is not as it is by default, in words: its options, the kind of the file written.
 std::set<std::string> options_used(const World& world);
 
+/// Returns the tangents of the vertices, if there are some.
+const Attribute* tangents_of(const Triangle_soup& soup);
+
 /// One line for a person.
 std::string describe(const World& world);
 

@@ -49,16 +49,20 @@ bool have_equal_normals(const Triangle_soup& a, const Triangle_soup& b)
   return true;
 }
 
-using Corner_points = std::array<Coordinates, 3>;
+// The places of the corners of a triangle, each with the side of its tangent where there are some.
+using Corner_points = std::array<std::array<double, 4>, 3>;
 
-std::vector<Corner_points> corner_points(const Triangle_soup& soup, bool in_any_order)
+std::vector<Corner_points> corner_points(const Triangle_soup& soup, bool in_any_order,
+                                         bool with_sides = false)
 {
   std::vector<Corner_points> result;
-  for (const auto& [a, b, c] : soup.triangles) {
-    result.push_back({coordinates(soup.points[a]), coordinates(soup.points[b]), coordinates(soup.points[c])});
-    for (Coordinates& point : result.back())
-      for (double& x : point)
-        x += 0.; // one zero
+  for (const Index_triple& triangle : soup.triangles) {
+    result.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = soup.points[triangle[k]];
+      result.back()[k] = {p.x() + 0., p.y() + 0., p.z() + 0., // one zero
+                          with_sides ? side_of_tangent(*tangents_of(soup), triangle[k]) : 0.};
+    }
     if (in_any_order)
       std::rotate(result.back().begin(), std::min_element(result.back().begin(), result.back().end()),
                   result.back().end());
@@ -95,7 +99,8 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
       if (with_normals && !soup.normals.empty())
         add_numbers(soup.normals.values[soup.normals.of_triangle[t][k]]);
       for (const Attribute& attribute : soup.vertex_attributes)
-        add(attribute.rows.data() + v * row_size(attribute), row_size(attribute));
+        if (with_normals || attribute.name != "TANGENT") // which turn with them, and are left out with them
+          add(attribute.rows.data() + v * row_size(attribute), row_size(attribute));
     }
   }
   std::sort(result.begin(), result.end());
@@ -147,7 +152,8 @@ Verdict judge_file(const World& world, const World_run& run)
 {
   const Triangle_soup &result = run.result.soup, &file = run.read_back;
   const bool is_scene = world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf;
-  if (corner_points(result, is_scene) != corner_points(file, is_scene))
+  const bool with_sides = is_scene && tangents_of(result) && tangents_of(file);
+  if (corner_points(result, is_scene, with_sides) != corner_points(file, is_scene, with_sides))
     return Broken_promise{Promise::written, "the file has other triangles"};
   if (is_scene || world.is_sewn || world.output_format == Mesh_format::stl)
     return std::nullopt;

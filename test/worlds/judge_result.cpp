@@ -347,7 +347,8 @@ Verdict judge_mended_normals(const World_run& run, const std::set<std::size_t>& 
   return std::nullopt;
 }
 
-// The worlds have attributes of one component: in floating point, or integers that are not mixed.
+// The worlds have attributes of one component, in floating point, or integers that are not mixed; and
+// tangents, whose sides are not mixed either.
 bool are_rows_between(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
                       Index from)
 {
@@ -357,6 +358,8 @@ bool are_rows_between(const std::vector<Attribute>& result, Index row, const std
     const Attribute &now = result[i], &before = original[i];
     if (before.type != Attribute::Type::float64 && before.type != Attribute::Type::float32 &&
         !before.is_normalized && !have_same_rows({now}, row, {before}, from))
+      return false;
+    if (before.name == "TANGENT" && side_of_tangent(now, row) != side_of_tangent(before, from))
       return false;
     if (before.type != Attribute::Type::float64)
       continue;

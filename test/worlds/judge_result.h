@@ -30,6 +30,14 @@ bool has_same_value(const Values& result, Index triangle, const Values& original
 bool has_same_label(const Triangle_labels& result, Index triangle, const Triangle_labels& original,
                     Index from);
 
+/// Returns the fourth number of a tangent: on which side of a mirrored texture it is.
+inline float side_of_tangent(const Attribute& tangents, Index vertex)
+{
+  float side;
+  std::memcpy(&side, tangents.rows.data() + (4 * vertex + 3) * sizeof side, sizeof side);
+  return side;
+}
+
 /// Whether every triangle that is left has what corners of the input have at its positions, on its side of
 /// the lines. `regions` has for every triangle the number of its side.
 Verdict judge_attributes(const World& world, const World_run& run, const Judged_complex& complex,

@@ -250,7 +250,53 @@ Corner_values<3> random_normals(const Triangle_soup& soup, Random& random)
   return normals;
 }
 
+// Makes normals flat, or smooth everywhere, or leaves them as they are.
+void shade(Triangle_soup& soup, Random& random)
+{
+  const auto kind = random.below(3);
+  if (kind == 0)
+    restore_normals(soup, Normals_treatment::flat);
+  if (kind == 1) {
+    for (Index_triple& corners : soup.normals.of_triangle)
+      corners = {0, 0, 0}; // no edge is hard
+    restore_normals(soup, Normals_treatment::smooth);
+  }
+}
+
 } // namespace
+
+void add_tangents_as_colours(Triangle_soup& soup, Random& random)
+{
+  if (soup.normals.empty()) {
+    soup.normals = random_normals(soup, random);
+    shade(soup, random);
+  }
+  const Triangle_labels sides = random_labels(soup, random, {"front", "back"});
+  for (const char* const name : {"red", "green", "blue", "alpha"}) {
+    Attribute& numbers = soup.vertex_attributes.emplace_back();
+    numbers.name = name;
+    numbers.type = Attribute::Type::float32;
+  }
+  std::map<std::pair<Index, Index>, Index> numbers; // by vertex and side
+  std::vector<Point_3> points;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (Index& v : soup.triangles[t]) {
+      const Index side = sides.of_triangle[t];
+      const auto [place, is_new] = numbers.try_emplace({v, side}, Index(points.size()));
+      if (is_new) {
+        points.push_back(soup.points[v]);
+        const std::size_t axis = random.one_in(8) ? random.below(3) : 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+          const float number = i == axis ? 1.f : i < 3 ? 0.f : side == 0 ? 1.f : -1.f;
+          const auto* const bytes = reinterpret_cast<const unsigned char*>(&number);
+          soup.vertex_attributes[i].rows.insert(soup.vertex_attributes[i].rows.end(), bytes,
+                                                bytes + sizeof number);
+        }
+      }
+      v = place->second;
+    }
+  soup.points = std::move(points);
+}
 
 void decorate(Triangle_soup& soup, Random& random)
 {
@@ -268,16 +314,8 @@ void decorate(Triangle_soup& soup, Random& random)
     soup.uvs = random_uvs(soup, random);
   if (random.one_in(8))
     soup.normals = random_normals(soup, random);
-  if (!soup.normals.empty()) {
-    const auto kind = random.below(3);
-    if (kind == 0)
-      restore_normals(soup, Normals_treatment::flat);
-    if (kind == 1) {
-      for (Index_triple& corners : soup.normals.of_triangle)
-        corners = {0, 0, 0}; // no edge is hard
-      restore_normals(soup, Normals_treatment::smooth);
-    }
-  }
+  if (!soup.normals.empty())
+    shade(soup, random);
   if (random.one_in(4)) {
     Attribute weights;
     weights.name = "w";

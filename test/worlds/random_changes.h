@@ -37,6 +37,10 @@ void decorate(Triangle_soup& soup, Random& random);
 /// own, all of them or a few.
 void add_poles(Triangle_soup& soup, Random& random);
 
+/// Normals, and vertex attributes red, green, blue and alpha that are numbers of tangents. Some triangles
+/// have vertices of their own, on the other side of a mirrored texture.
+void add_tangents_as_colours(Triangle_soup& soup, Random& random);
+
 /// An attribute of triangles, of one byte each, as a PLY file holds it: the same in two regions, or anyhow.
 void number_triangles(Triangle_soup& soup, Random& random);
 

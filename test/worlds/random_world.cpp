@@ -140,10 +140,12 @@ void bind_some(Json& json, Random& random, const std::filesystem::path& folder)
 
 /// The soup as a glTF scene whose nodes are scaled, turned, mirrored, moved, and children of one another. It
 /// has each mesh several times if `others` are given, which say where.
-Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
+Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others, Random* of_tangents)
 {
   round_to_float32(soup);
   soup.vertex_attributes.clear();
+  if (of_tangents)
+    add_tangents_as_colours(soup, *of_tangents);
   const Temporary_folder folder;
   write_mesh(folder / "mesh.gltf", soup);
   Json json;
@@ -151,6 +153,13 @@ Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
     std::ifstream stream(folder / "mesh.gltf");
     json = Json::parse(stream);
   }
+  if (of_tangents)
+    for (Json& mesh : json["meshes"])
+      for (Json& primitive : mesh["primitives"]) {
+        Json& attributes = primitive["attributes"];
+        attributes["TANGENT"] = attributes["COLOR_0"];
+        attributes.erase("COLOR_0");
+      }
   Json& nodes = json["nodes"];
   for (Json& node : nodes)
     switch (random.below(4)) {
@@ -589,9 +598,12 @@ World random_world(std::uint64_t seed)
     world.output_format = random.one_of({Mesh_format::stl, Mesh_format::glb, Mesh_format::gltf});
     if (random.one_in(3)) {
       // Another sequence of numbers, so that worlds of earlier versions stay what they were.
-      Random others(seed + 2);
-      const bool is_shared = soup.triangles.size() < 150 && world.seed % 2 == 0;
-      soup = as_scene(std::move(soup), random, is_shared ? &others : nullptr);
+      Random others(seed + 2), of_tangents(seed + 9);
+      const bool is_shared = soup.triangles.size() < 150 && world.seed % 2 == 0, has_tangents = seed % 5 < 2;
+      soup = as_scene(std::move(soup), random, is_shared ? &others : nullptr,
+                      has_tangents ? &of_tangents : nullptr);
+      if (has_tangents)
+        world.scene += ", with tangents";
       if (is_shared)
         world.scene += ", meshes in several places";
       world.input_format = Mesh_format::gltf;
@@ -657,7 +669,7 @@ World random_world(std::uint64_t seed)
       world.lods.push_back(random.share());
     world.options.ratio.reset();
   }
-  world.is_sewn = random.one_in(12);
+  world.is_sewn = random.one_in(12) && world.output_format != Mesh_format::stl; // which is refused
   const bool has_polygons =
       world.seed % 2 == 0; // no random number, so that worlds of earlier versions stay what they were
   if (has_polygons)

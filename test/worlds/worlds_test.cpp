@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <set>
@@ -51,6 +52,7 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.snaps, s_seeds / 20);
   EXPECT_GT(counts.turned, s_seeds / 20);
   EXPECT_GE(counts.options["shared_meshes"], s_seeds / 200);
+  EXPECT_GT(counts.options["tangents"], 0u);
   EXPECT_GT(counts.options["mended_normals"], 0u);
   EXPECT_GT(counts.options["fitted_normals"], 0u);
   EXPECT_GT(counts.options["picked_normals"], 0u);
@@ -431,6 +433,34 @@ TEST(JudgeOfWorlds, SeesAnExchangedAttribute)
               [](World_run& run) { run.result.soup.groups.of_triangle[0] ^= 1; });
   expect_seen("attributes", plain_world(),
               [](World_run& run) { run.result.corners[0][0] = run.result.corners[0][1]; });
+}
+
+TEST(JudgeOfWorlds, SeesATangentOnTheOtherSide)
+{
+  const auto turn_first = [](Triangle_soup& soup) {
+    for (Attribute& attribute : soup.vertex_attributes)
+      if (attribute.name == "TANGENT") {
+        const float side = -side_of_tangent(attribute, soup.triangles[0][0]);
+        std::memcpy(attribute.rows.data() + (4 * soup.triangles[0][0] + 3) * sizeof side, &side, sizeof side);
+      }
+  };
+  int judged = 0;
+  for (std::uint64_t seed = 1; judged < 3; ++seed) {
+    ASSERT_LT(seed, 1000u);
+    const World world = random_world(seed);
+    if (!tangents_of(world.soup))
+      continue;
+    const World_run run = test::run(world);
+    if (!tangents_of(run.result.soup) || !tangents_of(run.read_back))
+      continue;
+    ++judged;
+    EXPECT_EQ(verdict(world, run), "kept") << seed;
+    World_run exchanged = run, written = run;
+    turn_first(exchanged.result.soup);
+    EXPECT_EQ(verdict(world, exchanged), "attributes") << seed;
+    turn_first(written.read_back);
+    EXPECT_EQ(verdict(world, written), "written") << seed;
+  }
 }
 
 TEST(JudgeOfWorlds, SeesAFaceMovedInTheResult)
