@@ -189,8 +189,9 @@ std::string seams_to_let_gape(const Simplify_request& request, const Prepared_so
 } // namespace
 
 std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
-                      const Simplify_report& report)
+                      const Simplified_soup& result)
 {
+  const Simplify_report& report = result.report;
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
     return "all faces left are fixed; no option helps";
@@ -215,6 +216,10 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
                                  : seams_to_let_gape(request, prepared, hindrances);
   if (!options.text.empty())
     text += "; try " + options.text +
+            (options.text.find("--instances") != std::string::npos
+                 ? ", which may make " + with_commas(result.shared_places) + " meshes of " +
+                       with_commas(result.shared_meshes)
+                 : "") +
             (options.text.find("--error") != std::string::npos ? ", which costs shape" : "");
   else if (seams.empty() && gaping.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));

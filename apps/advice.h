@@ -19,7 +19,7 @@ namespace selvedge::app {
 
 /// Says what holds back a reduction that ended by itself, and what helps.
 std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
-                      const Simplify_report& report);
+                      const Simplified_soup& result);
 
 /// Returns the name of the reason that holds most edges, of which there are some.
 std::string most_frequent_reason(const Hindrances& hindrances);

@@ -444,7 +444,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     return;
   }
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, prepared, done)
+    stream << "\nheld back: " << held_back(request, prepared, result)
            << what_shape_takes(request, done, level.verification.distances->original_to_result)
            << what_is_left_for_pieces(prepared, done);
   if (done.is_reached() && request.progressive.empty())

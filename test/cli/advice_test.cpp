@@ -128,6 +128,25 @@ TEST(App_simplify, NamesTheOptionsThatHelp)
   EXPECT_NE(helped.out.find("target 1,400 reached"), std::string::npos) << helped.out;
 }
 
+// Where one place holds a shared mesh back, what helps makes more meshes of it.
+TEST(App_simplify, SaysWhatReducingPlacesApartCosts)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.gltf", out = folder / "out.gltf";
+  write_mesh(in, sheet(20, 20));
+  auto scene = nlohmann::json::parse(contents_of(in));
+  for (const double height : {0., 0.001, 100.}) // the stars of the first two are too near each other
+    scene["nodes"].push_back({{"mesh", 0}, {"rotation", {0, 0.6, 0, 0.8}}, {"translation", {0, 0, height}}});
+  scene["nodes"].erase(0);
+  scene["scenes"][0]["nodes"] = {0, 1, 2};
+  write_text(in, scene.dump());
+  const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1"});
+  EXPECT_NE(held.out.find("; try --instances apart, which may make 3 meshes of 1\n"), std::string::npos)
+      << held.out;
+  const App_result helped = run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--instances", "apart"});
+  EXPECT_NE(helped.out.find("target 240 reached"), std::string::npos) << helped.out;
+}
+
 // Of five lines of normals across a sheet, two are soft: only the other three hold their vertices.
 TEST(App_simplify, LeavesSoftEdgesOutOfSeams)
 {
