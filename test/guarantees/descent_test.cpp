@@ -10,10 +10,17 @@
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/geometry/internal/piercing_depth.h>
+
+#include <CGAL/Bbox_3.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,14 +29,14 @@ namespace selvedge::test {
 namespace {
 
 /// Two wavy sheets, one moved into the other.
-Triangle_soup sheets_through_each_other(std::size_t faces)
+Triangle_soup sheets_through_each_other(std::size_t faces, double share = 1)
 {
   const Triangle_soup sheet = sheets(faces, 1, 1e-3);
   Triangle_soup lower;
   lower.points = sheet.points;
   lower.triangles = sheet.triangles;
-  return joined(lower, mapped(lower, [](const Point_3& p) {
-                  return Point_3(p.x() + 0.013, p.y() + 0.007, p.z() + 0.002);
+  return joined(lower, mapped(lower, [share](const Point_3& p) {
+                  return Point_3(p.x() + 0.013 * share, p.y() + 0.007 * share, p.z() + 0.002 * share);
                 }));
 }
 
@@ -199,7 +206,8 @@ TEST(Descent, NeverIsOfMorePairsThanThereWere)
 }
 
 // What the filter says of the collapse of one vertex onto another.
-bool is_accepted(const Triangle_soup& soup, bool is_exempt, Index target = 17, Index mover = 16)
+bool is_accepted(const Triangle_soup& soup, bool is_exempt, Index target = 17, Index mover = 16,
+                 double shallow = std::numeric_limits<double>::infinity())
 {
   return is_collapse_accepted(soup, mover, target, [&](const Intersection_filter<Filtered_mesh>& filter) {
     if (!is_exempt)
@@ -207,7 +215,7 @@ bool is_accepted(const Triangle_soup& soup, bool is_exempt, Index target = 17, I
     std::vector<std::pair<Filtered_mesh::Face_index, Filtered_mesh::Face_index>> pairs;
     for (const Offending_pair& pair : offending_pairs(soup))
       pairs.emplace_back(pair.first, pair.second);
-    filter.exempt(pairs);
+    filter.exempt(pairs, {}, shallow);
   });
 }
 
@@ -220,6 +228,54 @@ TEST(Descent, PassesFromFacesThatAreRemoved)
 TEST(Descent, RefusesAStepToMorePairs)
 {
   EXPECT_FALSE(is_accepted(s_wide, true));
+}
+
+// A needle that stands in a slope of the sheet, 0.4 high there, which the collapse of 16 onto 17 flattens.
+Triangle_soup slope_with_needle(double height)
+{
+  Triangle_soup slope = sheet(6, 6);
+  slope.points[16] = Point_3(2, 2, 1);
+  return joined(slope, soup({{2.55, 2.2, -1}, {2.65, 2.2, -1}, {2.6, 2.2, height}}, {{0, 1, 2}}));
+}
+
+TEST(Descent, RefusesAStepFromAShallowPairToADeepOne)
+{
+  const Triangle_soup shallow = slope_with_needle(0.45);
+  ASSERT_EQ(offending_pairs(shallow).size(), 1u);
+  EXPECT_TRUE(is_accepted(shallow, true)) << "nothing is shallow by default";
+  EXPECT_TRUE(is_accepted(shallow, true, 17, 16, 0.5));
+  EXPECT_FALSE(is_accepted(shallow, true, 17, 16, 0.1));
+  const Triangle_soup deep = slope_with_needle(0.8);
+  ASSERT_EQ(offending_pairs(deep).size(), 1u);
+  EXPECT_TRUE(is_accepted(deep, true, 17, 16, 0.1)) << "it is deep already";
+}
+
+double deepest_pair(const Triangle_soup& soup)
+{
+  const auto triangle = [&](Index t) {
+    const auto [a, b, c] = soup.triangles[t];
+    return std::array<Point_3, 3>{soup.points[a], soup.points[b], soup.points[c]};
+  };
+  double deepest = 0;
+  for (const Offending_pair& pair : offending_pairs(soup))
+    deepest = std::max(deepest, internal::piercing_depth(triangle(pair.first), triangle(pair.second)));
+  return deepest;
+}
+
+// Without the limit, they pierce each other six times as deep.
+TEST(Descent, KeepsShallowPairsShallow)
+{
+  const Triangle_soup soup = sheets_through_each_other(3000, 0.1);
+  const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
+  const double shallow = Simplify_constraints<Filtered_mesh>::s_share_of_shallow_pairs *
+                         std::hypot(box.x_span(), box.y_span(), box.z_span());
+  const double before = deepest_pair(soup);
+  EXPECT_GT(before, 0);
+  ASSERT_LE(before, shallow);
+  for (const double ratio : {0.1, 0.02}) {
+    const Reduction reduction = reduce(soup, without_limits(to_ratio(ratio)), with(Defects::descend));
+    EXPECT_LE(deepest_pair(reduction.simplified.soup), shallow) << ratio;
+  }
 }
 
 TEST(Descent, MovesNoDegenerateFaceInTheFilter)

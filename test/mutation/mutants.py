@@ -985,6 +985,8 @@ group(
     ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
      "only one end of two that move hands on ancestors"),
     ("m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);", ";", "faces that change are also counted as they were"),
+    (" && is_depth_kept()", "", "shallow pairs may become deep"),
+    ("!m_descent.are_all_pairs_now(", "m_descent.are_all_pairs_now(", "only deep pairs are kept from becoming deeper"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Intersection_guard.h",

@@ -14,6 +14,7 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -149,12 +150,17 @@ public:
   /// By default, no pair is exempt. `multiplicities` says which faces stand for several triangles in one
   /// place, so that their pairs count as often.
   ///
+  /// Where no pair of two faces with one that a collapse changes or removes pierces deeper than `shallow`, a
+  /// length, none may do so afterwards; by default, they may. How deep two faces pierce each other is
+  /// computed in floating point: it is a limit of quality, which refuses more than the guarantees ask for.
+  ///
   /// **Preconditions** The pairs are all that keep the mesh from being embedded, each once. No question has
   /// been asked yet.
   void exempt(const std::vector<std::pair<Face, Face>>& offending_pairs,
-              const std::vector<std::pair<Face, unsigned>>& multiplicities = {}) const
+              const std::vector<std::pair<Face, unsigned>>& multiplicities = {},
+              double shallow = std::numeric_limits<double>::infinity()) const
   {
-    m_guard->exempt(offending_pairs, multiplicities);
+    m_guard->exempt(offending_pairs, multiplicities, shallow);
   }
 
   /// Lets faces of two parts intersect each other, at the start and afterwards: no face of the first is
@@ -208,9 +214,9 @@ public:
   }
 
   /// Returns the faces because of which this filter refused the last collapse: at most one for each order of
-  /// motions that it tried, or all with which more exempt pairs would offend than before. Empty where the
-  /// star of the moving vertex alone decided. Where the base filter refused, they are what it names, if it
-  /// does.
+  /// motions that it tried, or all with which exempt pairs would offend, where these are what it refuses.
+  /// Empty where the star of the moving vertex alone decided. Where the base filter refused, they are what it
+  /// names, if it does.
   const std::vector<Face>& blockers() const
   {
     if constexpr (internal::Has_blockers<BaseFilter>::value)

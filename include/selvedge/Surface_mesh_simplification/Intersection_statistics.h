@@ -23,7 +23,7 @@ struct Intersection_statistics
   std::size_t refused_by_star = 0;      ///< motions in which the star would meet itself
   std::size_t refused_by_sweep = 0;     ///< motions in which a face would meet a stationary face
   std::size_t refused_by_clearance = 0; ///< motions in which a face would come too near one of another piece
-  std::size_t refused_by_descent = 0;   ///< collapses after which more exempt pairs would offend
+  std::size_t refused_by_descent = 0;   ///< collapses after which more exempt pairs would offend, or deeper
 };
 
 } // namespace selvedge

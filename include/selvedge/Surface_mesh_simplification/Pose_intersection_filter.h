@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Pose_motions.h>
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -133,9 +134,10 @@ public:
 
   /// As `Intersection_filter::exempt`, for one of the poses.
   void exempt(std::size_t pose, const std::vector<std::pair<Face, Face>>& offending_pairs,
-              const std::vector<std::pair<Face, unsigned>>& multiplicities = {}) const
+              const std::vector<std::pair<Face, unsigned>>& multiplicities = {},
+              double shallow = std::numeric_limits<double>::infinity()) const
   {
-    m_state->filters[pose].exempt(offending_pairs, multiplicities);
+    m_state->filters[pose].exempt(offending_pairs, multiplicities, shallow);
   }
 
   /// As `Intersection_filter::let_intersect`, in all poses.

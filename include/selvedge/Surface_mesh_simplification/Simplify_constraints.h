@@ -74,7 +74,11 @@ struct Simplify_constraints
   /// The pairs of faces that keep the mesh from being embedded, all of them and each once; a degenerate face
   /// is a pair with itself. They and their descendants are exempt, see `Intersection_filter::exempt`. A mesh
   /// of which all such faces have locked vertices needs none.
+  ///
+  /// Where layers pierce each other by no more than a share of the diagonal, so little that nobody sees it,
+  /// what descends from them does not pierce deeper. Parts that are meant to pass through each other do.
   std::vector<std::pair<Face, Face>> offending_pairs;
+  static constexpr double s_share_of_shallow_pairs = 0.002;
 
   /// Pairs of parts, by their faces, that may come to intersect each other, see
   /// `Intersection_filter::let_intersect`. `offending_pairs` has none of the pairs between them.

@@ -121,6 +121,18 @@ public:
     return twice / 2;
   }
 
+  /// Returns whether all pairs of two faces, with a considered one, that offend now meet a condition.
+  template <class Condition>
+  bool are_all_pairs_now(const Condition& condition) const
+  {
+    return std::all_of(m_considered.begin(), m_considered.end(), [&](Id face) {
+      const auto found = m_pairs.find(face);
+      return found == m_pairs.end() || std::all_of(found->second.begin(), found->second.end(), [&](Id other) {
+               return other == face || condition(face, other);
+             });
+    });
+  }
+
   /// Called when the collapse has been done. `changed` are the considered faces that are left, `pairs` those
   /// with one of them that offend now.
   void on_collapsed(const std::vector<Id>& changed, const std::vector<Pair>& pairs)

@@ -8,6 +8,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Descent.h>
 #include <selvedge/Surface_mesh_simplification/internal/Permitted_pairs.h>
 #include <selvedge/geometry/face_pair.h>
+#include <selvedge/geometry/internal/piercing_depth.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -25,7 +27,8 @@ namespace selvedge {
 namespace internal {
 
 /// Answers, for the guard, what a collapse does to pairs of faces that offend already: which pairs are exempt
-/// from its questions, whether the degenerate faces may go, and whether no more pairs offend afterwards.
+/// from its questions, whether the degenerate faces may go, whether no more pairs offend afterwards, and
+/// whether shallow ones stay so.
 ///
 /// It finds the faces and the pairs; `Descent`, which knows them by numbers alone, remembers which descend
 /// from which. Nothing is computed where the mesh had no offending faces.
@@ -46,10 +49,11 @@ public:
   }
 
   /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
-  /// as many pairs. Call it before the first question.
+  /// as many pairs. Pairs that pierce no deeper than `shallow` stay so. Call it before the first question.
   void begin(const std::vector<std::pair<Face, Face>>& offending,
-             const std::vector<std::pair<Face, unsigned>>& multiplicities)
+             const std::vector<std::pair<Face, unsigned>>& multiplicities, double shallow)
   {
+    m_shallow = shallow;
     std::vector<Descent::Pair> pairs;
     for (const auto& [f, g] : offending)
       pairs.push_back({m_faces.id(f), m_faces.id(g)});
@@ -104,12 +108,12 @@ public:
   /// Returns whether the last question found a degenerate face.
   bool has_degenerate() const { return m_has_degenerate; }
 
-  /// Returns whether no more pairs offend after the collapse than before. If more do, adds the faces that do
-  /// not change and would offend to `blockers`.
+  /// Returns whether no more pairs offend after the collapse than before, and none is deep unless one was. If
+  /// not, adds the faces that do not change and would offend to `blockers`.
   template <class Profile>
-  bool is_number_kept(const Collapse<Profile>& collapse, std::vector<Face>& blockers)
+  bool are_pairs_kept(const Collapse<Profile>& collapse, std::vector<Face>& blockers)
   {
-    if (!m_is_concerned || find_pairs_after(collapse, m_descent.pairs_now())) {
+    if (!m_is_concerned || (find_pairs_after(collapse, m_descent.pairs_now()) && is_depth_kept())) {
       m_known = question(collapse);
       return true;
     }
@@ -223,13 +227,36 @@ private:
         m_near.end());
     std::sort(m_near.begin(), m_near.end());
     for (const Id id : m_near) {
-      const auto& [a, b, c] = m_faces.corners(id);
-      const Triangle other{m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)};
+      const Triangle other = triangle(id);
       for (std::size_t i = 0; i < m_changed.size(); ++i)
         if (CGAL::do_overlap(box_of(m_changed[i]), box_of(other)) && !is_within_limit(i, other, id))
           return false;
     }
     return true;
+  }
+
+  // Whether no pair found pierces deeper than what is shallow, or one of the pairs now does.
+  bool is_depth_kept() const
+  {
+    return m_shallow == std::numeric_limits<double>::infinity() ||
+           std::all_of(m_pairs_after.begin(), m_pairs_after.end(),
+                       [&](const Descent::Pair& pair) {
+                         return is_shallow(triangle_after(pair.first), triangle_after(pair.second));
+                       }) ||
+           !m_descent.are_all_pairs_now([&](Id f, Id g) { return is_shallow(triangle(f), triangle(g)); });
+  }
+  bool is_shallow(const Triangle& f, const Triangle& g) const { return piercing_depth(f, g) <= m_shallow; }
+
+  Triangle triangle(Id id) const
+  {
+    const auto& [a, b, c] = m_faces.corners(id);
+    return {m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)};
+  }
+  Triangle triangle_after(Id id) const
+  {
+    const auto found = std::find(m_changed_ids.begin(), m_changed_ids.end(), id);
+    return found == m_changed_ids.end() ? triangle(id)
+                                        : m_changed[std::size_t(found - m_changed_ids.begin())];
   }
 
   static bool have_same_corners(const Triangle& f, const Triangle& g)
@@ -248,6 +275,7 @@ private:
   const GeomTraits& m_traits;
   const Permitted_pairs<Id>& m_permitted;
   Descent m_descent;
+  double m_shallow = std::numeric_limits<double>::infinity(); // a depth
   bool m_is_concerned = false;
   bool m_has_degenerate = false; // whether a face that the collapse removes is degenerate
   Question m_known;              // the collapse of which all that is asked here is known

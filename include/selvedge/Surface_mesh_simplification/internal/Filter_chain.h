@@ -161,14 +161,15 @@ public:
     if (!m_options.check_intersections)
       return;
     m_intersection.emplace(m_mesh, No_filter(), empty_index(), m_points);
-    m_intersection->exempt(m_constraints.offending_pairs, m_constraints.multiplicities);
+    const double shallow = Simplify_constraints<TriangleMesh>::s_share_of_shallow_pairs * m_diagonal;
+    m_intersection->exempt(m_constraints.offending_pairs, m_constraints.multiplicities, shallow);
     m_intersection->let_intersect(m_constraints.may_intersect);
     if (m_options.clearance)
       m_intersection->keep_clearance(*m_options.clearance, m_constraints.uncounted_faces);
     m_visitor = m_intersection->visitor();
     if (m_options.remembered_refusals)
       m_options.remembered_refusals->begin();
-    m_poses.build_index([this] { return empty_index(); }, m_constraints, m_options.clearance);
+    m_poses.build_index([this] { return empty_index(); }, m_constraints, m_options.clearance, shallow);
   }
 
   /// Whether all filters but the exact test allow a collapse.

@@ -87,16 +87,16 @@ public:
   bool empty() const { return m_poses.empty(); }
   std::size_t size() const { return m_poses.size(); }
 
-  /// Begins the exact test; `make_index()` returns an empty index.
+  /// Begins the exact test; `make_index()` returns an empty index. `shallow` is for `exempt`.
   template <class MakeIndex>
   void build_index(const MakeIndex& make_index, const Constraints& constraints,
-                   const std::optional<double>& clearance)
+                   const std::optional<double>& clearance, double shallow)
   {
     if (empty())
       return;
     m_intersection.emplace(m_mesh, points(), No_filter(), make_index);
     for (std::size_t i = 0; i < m_poses.size(); ++i)
-      m_intersection->exempt(i, constraints.poses[i].offending_pairs, constraints.multiplicities);
+      m_intersection->exempt(i, constraints.poses[i].offending_pairs, constraints.multiplicities, shallow);
     m_intersection->let_intersect(constraints.may_intersect);
     if (clearance)
       m_intersection->keep_clearance(*clearance, constraints.uncounted_faces);

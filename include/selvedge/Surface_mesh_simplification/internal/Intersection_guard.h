@@ -46,8 +46,8 @@ namespace internal {
 /// Coincident vertices move together, in one motion of the faces at all of them, or not at all.
 ///
 /// Conditions 1 and 2 are not asked of exempt pairs (`Exempt_pairs`), but a collapse must not make more of
-/// them offend. A degenerate face does not move: it stays as it is until it is contracted onto an end of an
-/// edge.
+/// them offend, or shallow ones deep. A degenerate face does not move: it stays as it is until it is
+/// contracted onto an end of an edge.
 ///
 /// Condition 1 is not asked of permitted pairs (`Permitted_pairs`) either; no star has faces of two
 /// parts that may intersect.
@@ -81,11 +81,11 @@ public:
   }
 
   /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
-  /// as many pairs. Call it before the first question.
+  /// as many pairs. Pairs that pierce no deeper than `shallow` stay so. Call it before the first question.
   void exempt(const std::vector<std::pair<Face, Face>>& offending,
-              const std::vector<std::pair<Face, unsigned>>& multiplicities)
+              const std::vector<std::pair<Face, unsigned>>& multiplicities, double shallow)
   {
-    m_exempt.begin(offending, multiplicities);
+    m_exempt.begin(offending, multiplicities, shallow);
   }
 
   /// Permits pairs between two parts. Call it before the first question.
@@ -111,7 +111,7 @@ public:
     refuse_missing_visitor();
     m_exempt.consider(collapse);
     m_is_announcement_due =
-        may_degenerate_faces_go(collapse) && are_motions_clear(collapse) && is_number_of_pairs_kept(collapse);
+        may_degenerate_faces_go(collapse) && are_motions_clear(collapse) && are_pairs_kept(collapse);
     return m_is_announcement_due;
   }
 
@@ -234,11 +234,11 @@ private:
   }
 
   template <class Profile>
-  bool is_number_of_pairs_kept(const Collapse<Profile>& collapse)
+  bool are_pairs_kept(const Collapse<Profile>& collapse)
   {
-    const bool is_kept = m_exempt.is_number_kept(collapse, m_blockers);
-    m_statistics.refused_by_descent += !is_kept;
-    return is_kept;
+    const bool are_kept = m_exempt.are_pairs_kept(collapse, m_blockers);
+    m_statistics.refused_by_descent += !are_kept;
+    return are_kept;
   }
 
   // Whether other vertices at the position of the mover do not move with it.
