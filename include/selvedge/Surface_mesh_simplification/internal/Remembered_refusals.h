@@ -50,8 +50,6 @@ public:
   std::optional<Refusal> refusal(Number question)
   {
     m_is_following = m_is_following && m_place < m_words.size() && m_words[m_place] == question;
-    if (!m_is_following)
-      m_words.resize(m_place);
     if (!m_is_following || m_words[m_place + 1] == s_accepted)
       return {};
     const Number answer = m_words[m_place + 1];
