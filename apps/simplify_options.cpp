@@ -11,6 +11,7 @@
 #include "poses_option.h"
 #include "standard_streams.h"
 #include "subcommands.h"
+#include "text.h"
 #include "threads_option.h"
 
 #include <string>
@@ -207,7 +208,7 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "corner low.")
       ->check(in_range(0))
       ->type_name("D")
-      ->default_str("0.0025")
+      ->default_str(with_digits(options.max_corner_height))
       ->group(limits);
   command
       .add_option("--seam-turn", options.max_seam_turn,

@@ -42,7 +42,8 @@ public:
   /// `asked` are the options that the caller wants.
   explicit Missed_target(Simplify_options asked) : m_options(std::move(asked))
   {
-    m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
+    if (m_options.ratio || m_options.faces)
+      m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
   }
 
   /// Returns whether a result has used a quarter of the error that is allowed, if there is a limit above 0.
@@ -64,7 +65,7 @@ public:
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
     if (!m_first.empty() || std::any_of(levels.begin(), levels.end(), is_stopped))
-      return false;
+      return is_not_due();
     std::vector<std::size_t> least;
     for (const Judged& level : levels)
       if (is_flattened(m_options, level.original_to_result))
@@ -73,7 +74,7 @@ public:
       lower_to_reached(level.result.report.shares, least);
     std::replace(least.begin(), least.end(), s_none, std::size_t(0));
     if (std::all_of(least.begin(), least.end(), [](std::size_t faces) { return faces == 0; }))
-      return false;
+      return is_not_due();
     m_options.least_faces = std::move(least);
     for (const Judged& level : levels)
       m_first.emplace_back(level.result);
@@ -94,6 +95,12 @@ private:
 
   static constexpr double s_much = 0.25; // of the error allowed
   static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
+
+  bool is_not_due()
+  {
+    m_options.remembered_refusals.reset(); // which take memory
+    return false;
+  }
 
   static std::size_t a_tenth(std::size_t faces) { return (faces + 9) / 10; }
 

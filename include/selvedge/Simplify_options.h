@@ -71,9 +71,9 @@ struct Simplify_options
   /// none. `Missed_target` sets them. The order of collapses is that of a reduction without them.
   std::vector<std::size_t> least_faces;
 
-  /// Where a reduction is done again, and begins like the one before, what the exact test refused then. It
-  /// saves time, and changes nothing else. `Missed_target` makes it. May be null. One reduction at a time may
-  /// use it.
+  /// What the exact test has refused, where a reduction of one mesh is done again and begins like the one
+  /// before. It saves time, and changes nothing else. `Missed_target` makes it. May be null. One reduction at
+  /// a time may use it.
   std::shared_ptr<internal::Remembered_refusals> remembered_refusals;
 
   /// The largest distance E between the surfaces of the original and the result, as a share of the diagonal

@@ -242,7 +242,7 @@ TEST(Descent, RefusesAStepFromAShallowPairToADeepOne)
 {
   const Triangle_soup shallow = slope_with_needle(0.45);
   ASSERT_EQ(offending_pairs(shallow).size(), 1u);
-  EXPECT_TRUE(is_accepted(shallow, true)) << "nothing is shallow by default";
+  EXPECT_TRUE(is_accepted(shallow, true)) << "by default there is no limit";
   EXPECT_TRUE(is_accepted(shallow, true, 17, 16, 0.5));
   EXPECT_FALSE(is_accepted(shallow, true, 17, 16, 0.1));
   const Triangle_soup deep = slope_with_needle(0.8);

@@ -1623,10 +1623,12 @@ group("src/simplify/reduce_in_cells.cpp", ("missed_target_test",),
       ("  options.least_faces.clear();", "", "no cell does anything where the whole has a least number of faces"))
 
 group("include/selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h", ("remembered_refusals_test",),
-      (" && m_words[m_place] == question", "", "other questions get the answers of the reduction before"),
+      (" && m_words[m_place] == number", "", "other questions get the answers of the reduction before"),
       ("    m_place = 0;\n", "", "a reduction goes on where the one before ended"),
       ("(answer & 1) != 0", "false", "what only clearance refused is taken for contact"),
-      ("m_is_following && answer == s_accepted", "m_is_following", "a refusal that is new is not recorded"),
+      ("m_is_following && kind <= s_done", "m_is_following", "a refusal that is new is not recorded"),
+      ("    m_is_following = is_next(collapse) && m_words[m_place + 1] == s_done;\n", "", "a collapse that was not done counts as done"),
+      (" && m_words[m_place + 1] != s_done", "", "a question is taken for a collapse"),
       ("    m_words.resize(m_place);\n", "", "what follows another question is remembered"))
 group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("shares[i].output + a_tenth(shares[i].output - shares[i].fixed)", "shares[i].output",

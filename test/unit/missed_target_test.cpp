@@ -68,6 +68,17 @@ TEST(Missed_target, AsksForATenthMoreFacesOnce)
 }
 
 // Faces that cannot change keep no shape.
+TEST(Missed_target, RemembersRefusalsAsLongAsTheyMayBeOfUse)
+{
+  Missed_target missed(options_for_a_tenth());
+  EXPECT_TRUE(missed.options().remembered_refusals);
+  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_TRUE(missed.options().remembered_refusals);
+  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_FALSE(missed.options().remembered_refusals);
+  EXPECT_FALSE(Missed_target(Simplify_options()).options().remembered_refusals);
+}
+
 TEST(Missed_target, AsksForATenthMoreOfTheFacesThatCanChange)
 {
   Simplified_soup result = result_above_its_target();

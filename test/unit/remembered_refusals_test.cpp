@@ -39,7 +39,7 @@ TEST(Remembered_refusals, AreNotAskedAboutAgain)
 {
   Remembered_refusals memory;
   for (const bool is_first : {true, false, false}) {
-    memory.begin();
+    memory.begin(100);
     EXPECT_TRUE(is_asked(memory, 4, {}));
     EXPECT_EQ(is_asked(memory, 5, {7, 8}), is_first);
     EXPECT_EQ(is_asked(memory, 5, {9}), is_first);
@@ -50,10 +50,10 @@ TEST(Remembered_refusals, AreNotAskedAboutAgain)
 TEST(Remembered_refusals, SayWhetherClearanceWasLacking)
 {
   Remembered_refusals memory;
-  memory.begin();
+  memory.begin(100);
   memory.add_refused(1, {true, {3}});
   memory.add_refused(2, {false, {}});
-  memory.begin();
+  memory.begin(100);
   const auto first = memory.refusal(1), second = memory.refusal(2);
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(first->is_clearance_lacking);
@@ -64,14 +64,14 @@ TEST(Remembered_refusals, SayWhetherClearanceWasLacking)
 TEST(Remembered_refusals, EndWithTheFirstOtherQuestion)
 {
   Remembered_refusals memory;
-  memory.begin();
+  memory.begin(100);
   for (const auto question : {1, 2, 3})
     is_asked(memory, question, {9});
-  memory.begin();
+  memory.begin(100);
   EXPECT_FALSE(is_asked(memory, 1, {9}));
   EXPECT_TRUE(is_asked(memory, 5, {9}));
   EXPECT_TRUE(is_asked(memory, 3, {9})) << "it came after another question";
-  memory.begin();
+  memory.begin(100);
   EXPECT_FALSE(is_asked(memory, 1, {9}));
   EXPECT_FALSE(is_asked(memory, 5, {9}));
   EXPECT_FALSE(is_asked(memory, 3, {9}));
@@ -81,21 +81,59 @@ TEST(Remembered_refusals, EndWithTheFirstOtherQuestion)
 TEST(Remembered_refusals, EndWhereAnAcceptedCollapseIsRefused)
 {
   Remembered_refusals memory;
-  memory.begin();
+  memory.begin(100);
   EXPECT_TRUE(is_asked(memory, 1, {}));
   EXPECT_TRUE(is_asked(memory, 2, {9}));
-  memory.begin();
+  memory.begin(100);
   EXPECT_TRUE(is_asked(memory, 1, {8}));
   EXPECT_TRUE(is_asked(memory, 2, {9}));
-  memory.begin();
+  memory.begin(100);
   EXPECT_FALSE(is_asked(memory, 1, {8}));
   EXPECT_FALSE(is_asked(memory, 2, {9}));
+}
+
+TEST(Remembered_refusals, EndWithTheFirstOtherCollapse)
+{
+  // Asks two questions, of which the first is accepted, and perhaps refused by another filter.
+  const auto run = [](Remembered_refusals& memory, bool is_done) {
+    memory.begin(100);
+    EXPECT_TRUE(is_asked(memory, 1, {}));
+    if (is_done)
+      memory.add_done(1);
+    return is_asked(memory, 2, {9});
+  };
+  for (const bool is_first_done : {true, false}) {
+    Remembered_refusals memory;
+    EXPECT_TRUE(run(memory, is_first_done));
+    EXPECT_FALSE(run(memory, is_first_done));
+    EXPECT_TRUE(run(memory, !is_first_done)) << "the mesh is another one";
+  }
+}
+
+TEST(Remembered_refusals, EndWhereACollapseThatWasDoneIsAskedAboutAgain)
+{
+  Remembered_refusals memory;
+  memory.begin(100);
+  EXPECT_TRUE(is_asked(memory, 1, {}));
+  memory.add_done(1);
+  memory.begin(100);
+  EXPECT_TRUE(is_asked(memory, 1, {}));
+  EXPECT_TRUE(is_asked(memory, 1, {9}));
+}
+
+TEST(Remembered_refusals, AreOfOneMesh)
+{
+  Remembered_refusals memory;
+  memory.begin(100);
+  EXPECT_TRUE(is_asked(memory, 1, {99}));
+  memory.begin(90);
+  EXPECT_TRUE(is_asked(memory, 1, {89}));
 }
 
 TEST(Remembered_refusals, SaveAllRefusalsOfAReductionToMoreFaces)
 {
   Generate_options scene;
-  scene.faces = 2000;
+  scene.faces = 12000; // in whose order tiles matter
   const Prepared_soup prepared = prepare(generate("folded", scene), {});
   Simplify_options options;
   options.ratio = 0;

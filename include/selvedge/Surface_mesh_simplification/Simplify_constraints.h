@@ -75,8 +75,9 @@ struct Simplify_constraints
   /// is a pair with itself. They and their descendants are exempt, see `Intersection_filter::exempt`. A mesh
   /// of which all such faces have locked vertices needs none.
   ///
-  /// Where layers pierce each other by no more than a share of the diagonal, so little that nobody sees it,
-  /// what descends from them does not pierce deeper. Parts that are meant to pass through each other do.
+  /// Where layers pierce each other by no more than this share of the diagonal, so little that it hardly
+  /// shows, what descends from them does not pierce deeper than that (`shallow` in
+  /// `Intersection_filter::exempt`).
   std::vector<std::pair<Face, Face>> offending_pairs;
   static constexpr double s_share_of_shallow_pairs = 0.002;
 

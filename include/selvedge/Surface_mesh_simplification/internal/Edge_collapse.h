@@ -292,10 +292,11 @@ private:
   }
 
   // Lets the cheapest edges come tile by tile, half as many as collapses are expected. So there are collapses
-  // to come when they are gone: tiles differ on the way, but not in the end.
+  // to come when they are gone: tiles differ on the way, but not in the end. Where more has been refused than
+  // done, the end may come before.
   void merge_classes()
   {
-    if (!m_queue.merge_classes(m_expected_collapses / 2))
+    if (m_refused > m_done || !m_queue.merge_classes(m_expected_collapses / 2))
       m_expected_collapses = 0;
   }
 
@@ -347,6 +348,7 @@ private:
         m_waiting.release_around(of_edge.v1());
     }
     const Vertex kept = perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost);
+    ++m_done;
     m_expected_collapses -= m_expected_collapses > 0;
     refresh_around(kept);
     if constexpr (Has_companions<Visitor>::value)
@@ -481,6 +483,7 @@ private:
 
   void on_refused(const Profile& of_edge)
   {
+    ++m_refused;
     call_with_profile(
         [&](const auto& p) -> decltype(m_visitor.OnNonCollapsable(p)) { m_visitor.OnNonCollapsable(p); },
         of_edge);
@@ -539,8 +542,9 @@ private:
   const Filter& m_filter;
   Visitor m_visitor;
   bool m_is_geometry_tested;
-  std::size_t m_expected_collapses; // still to come; 0 when this is not known, or no longer of use
-  float m_front = 0;                // the cost of the edge taken last from the queue
+  std::size_t m_expected_collapses;      // still to come; 0 when this is not known, or no longer of use
+  std::size_t m_done = 0, m_refused = 0; // collapses
+  float m_front = 0;                     // the cost of the edge taken last from the queue
 
   Cancellation_poll m_poll;
 

@@ -49,7 +49,7 @@ public:
   }
 
   /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
-  /// as many pairs. Pairs that pierce no deeper than `shallow` stay so. Call it before the first question.
+  /// as many pairs. For `shallow` see `Intersection_filter::exempt`. Call it before the first question.
   void begin(const std::vector<std::pair<Face, Face>>& offending,
              const std::vector<std::pair<Face, unsigned>>& multiplicities, double shallow)
   {

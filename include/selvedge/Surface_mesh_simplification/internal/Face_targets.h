@@ -65,13 +65,13 @@ public:
   {
     Share& share = m_state->shares[number];
     share.asked = target;
-    share.target = (std::max)(share.least, target);
+    share.target = (std::max)(share.least, share.asked);
   }
   void set_least(std::size_t number, std::size_t faces)
   {
     Share& share = m_state->shares[number];
     share.least = faces;
-    share.target = (std::max)(faces, share.target);
+    share.target = (std::max)(share.least, share.asked);
   }
 
   bool has_several_shares() const { return m_state->shares.size() > 1; }

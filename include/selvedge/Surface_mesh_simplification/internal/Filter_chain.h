@@ -23,6 +23,9 @@
 #include <selvedge/spatial/internal/Selectable_index.h>
 
 #include <CGAL/Kernel_traits.h>
+#include <CGAL/number_utils.h>
+
+#include <boost/container_hash/hash.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -35,8 +38,8 @@ namespace selvedge {
 namespace internal {
 
 /// Says whether a reduction allows a collapse: the chain of all its filters. The cheap limits are asked
-/// first, in the mesh's own pose and in all others. Then come the error and the exact test, of which the one
-/// that has refused more is asked before the other, and the exact test in other poses.
+/// first, in the mesh's own pose and in all others, and then the exact test in each of them. The error in the
+/// mesh's own pose comes after the exact test while that has refused more.
 ///
 /// It has what the filters ask, and keeps that in step with the mesh: the border rule, the face targets, the
 /// partners of border vertices, the tracked points. It counts what each filter refuses, and names the first
@@ -57,6 +60,8 @@ public:
   using Partners = Border_partners<TriangleMesh>;
 
 private:
+  static constexpr bool are_elements_numbers = Are_numbers<Halfedge>::value && Are_numbers<Face>::value;
+
   // Whether a face lies in a strip between two lines, such as the edge of thick cloth: its corners are on
   // lines after the collapse, and at most one of its edges is a line. However long it is, the strip is no
   // wider.
@@ -134,6 +139,8 @@ public:
         m_tracked(m_mesh), m_error(setup.max_error, m_tracked), m_poses(setup, {&m_mesh, m_rule}),
         m_constraints(setup.constraints), m_diagonal(setup.diagonal), m_max_error(setup.max_error)
   {
+    if (m_options.remembered_refusals)
+      m_options.remembered_refusals->begin(face_count(m_mesh));
   }
 
   Filter_chain(const Filter_chain&) = delete; // filters refer to partners
@@ -167,8 +174,6 @@ public:
     if (m_options.clearance)
       m_intersection->keep_clearance(*m_options.clearance, m_constraints.uncounted_faces);
     m_visitor = m_intersection->visitor();
-    if (m_options.remembered_refusals)
-      m_options.remembered_refusals->begin();
     m_poses.build_index([this] { return empty_index(); }, m_constraints, m_options.clearance, shallow);
   }
 
@@ -257,6 +262,9 @@ public:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
+    if constexpr (are_elements_numbers)
+      if (m_options.remembered_refusals)
+        m_options.remembered_refusals->add_done(number_of(collapse));
     m_targets.before_collapse(collapse.moving());
     m_partners.before_collapse(collapse.moving());
     m_tracked.before_collapse(collapse);
@@ -324,10 +332,10 @@ private:
   template <class Profile>
   bool is_clear_or_remembered(const Collapse<Profile>& collapse)
   {
-    if constexpr (Are_numbers<Halfedge>::value && Are_numbers<Face>::value)
+    if constexpr (are_elements_numbers)
       if (Remembered_refusals* const memory = m_options.remembered_refusals.get()) {
         using Number = Remembered_refusals::Number;
-        const Number question = 2 * Number(collapse.moving()) + collapse.are_both_moved();
+        const Number question = number_of(collapse);
         if (const auto refusal = memory->refusal(question)) {
           m_remembered_blockers.clear();
           for (const Number face : refusal->blockers)
@@ -344,6 +352,16 @@ private:
         return is_clear;
       }
     return is_clear_in_own_pose(collapse);
+  }
+
+  // Distinguishes a collapse from nearly all others that the same mesh may have.
+  template <class Profile>
+  static Remembered_refusals::Number number_of(const Collapse<Profile>& collapse)
+  {
+    std::size_t number = 2 * std::size_t(collapse.moving()) + collapse.are_both_moved();
+    for (int axis = 0; axis < 3; ++axis)
+      boost::hash_combine(number, CGAL::to_double(collapse.place()[axis]));
+    return Remembered_refusals::Number(number);
   }
 
   template <class Profile>

@@ -81,7 +81,7 @@ public:
   }
 
   /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
-  /// as many pairs. Pairs that pierce no deeper than `shallow` stay so. Call it before the first question.
+  /// as many pairs. For `shallow` see `Intersection_filter::exempt`. Call it before the first question.
   void exempt(const std::vector<std::pair<Face, Face>>& offending,
               const std::vector<std::pair<Face, unsigned>>& multiplicities, double shallow)
   {
@@ -169,7 +169,7 @@ public:
   }
 
   /// Returns the faces that kept motions from being clear since `forget_blockers`: one at most for each
-  /// motion, or those with which more pairs would offend.
+  /// motion, or those with which exempt pairs would offend.
   const std::vector<Face>& blockers() const { return m_blockers; }
   void forget_blockers()
   {

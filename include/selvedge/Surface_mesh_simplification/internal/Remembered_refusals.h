@@ -19,14 +19,15 @@ namespace internal {
 /// collapses are then the first ones of the reduction before, and most of the time of that has gone into
 /// motions that were refused.
 ///
-/// It holds the questions of one reduction in their order, with the answers. Another reduction *follows* it
-/// as long as it asks the same questions. From the first other question on, it records its own.
+/// It holds the questions of one reduction, with the answers, and its collapses, in their order. Another
+/// reduction *follows* it as long as it asks the same questions and does the same collapses, so that its mesh
+/// is the same. From the first difference on, it records its own.
 ///
 /// **Guarantees** Only refusals are taken from it. A collapse that was accepted is asked about again, so that
-/// no result rests on this memory.
+/// nothing is done because of this memory.
 ///
-/// **Complexity** O(1) for each question and each blocker. Takes 8 bytes for each question and 4 for each
-/// blocker.
+/// **Complexity** O(1) for each question, blocker and collapse. Takes 8 bytes for each question and each
+/// collapse, and 4 for each blocker.
 class Remembered_refusals
 {
 public:
@@ -38,18 +39,21 @@ public:
     std::vector<Number> blockers;      ///< the numbers of the faces in the way
   };
 
-  /// Begins with the first question of a reduction.
-  void begin()
+  /// Begins a reduction of a mesh of so many faces. It follows none of a mesh of another number.
+  void begin(std::size_t faces)
   {
+    if (faces != m_faces)
+      m_words.clear();
+    m_faces = faces;
     m_place = 0;
     m_is_following = true;
   }
 
   /// Returns the answer to the question that comes next, if it was refused. If not, the exact test must be
-  /// asked, and the answer given to `add_accepted` or `add_refused`.
+  /// asked, and the answer given to `add_accepted` or `add_refused`. A question has the number of a collapse.
   std::optional<Refusal> refusal(Number question)
   {
-    m_is_following = m_is_following && m_place < m_words.size() && m_words[m_place] == question;
+    m_is_following = is_next(question) && m_words[m_place + 1] != s_done;
     if (!m_is_following || m_words[m_place + 1] == s_accepted)
       return {};
     const Number answer = m_words[m_place + 1];
@@ -65,26 +69,39 @@ public:
     add(question, Number(2 * (refusal.blockers.size() + 1) + refusal.is_clearance_lacking), refusal.blockers);
   }
 
-private:
-  static constexpr Number s_accepted = 0;
-
-  void add(Number question, Number answer, const std::vector<Number>& blockers)
+  /// Called before each collapse that is done.
+  void add_done(Number collapse)
   {
-    if (m_is_following && answer == s_accepted) {
+    m_is_following = is_next(collapse) && m_words[m_place + 1] == s_done;
+    add(collapse, s_done, {});
+  }
+
+private:
+  static constexpr Number s_accepted = 0, s_done = 1;
+
+  bool is_next(Number number) const
+  {
+    return m_is_following && m_place < m_words.size() && m_words[m_place] == number;
+  }
+
+  void add(Number number, Number kind, const std::vector<Number>& blockers)
+  {
+    if (m_is_following && kind <= s_done) {
       m_place += 2;
       return;
     }
     m_is_following = false;
     m_words.resize(m_place);
-    m_words.insert(m_words.end(), {question, answer});
+    m_words.insert(m_words.end(), {number, kind});
     m_words.insert(m_words.end(), blockers.begin(), blockers.end());
     m_place = m_words.size();
   }
 
-  // For each question its number, the answer, and the blockers. The answer to what was refused is twice the
-  // number of blockers and one, and one more if only clearance was lacking.
+  // For each question and each collapse its number, and what it is: accepted, done, or refused, which is
+  // 2 (blockers + 1), and 1 more if only clearance was lacking. The blockers come after it.
   std::vector<Number> m_words;
-  std::size_t m_place = 0; // of the next question
+  std::size_t m_faces = 0;
+  std::size_t m_place = 0; // of what comes next
   bool m_is_following = false;
 };
 

@@ -405,7 +405,7 @@ private:
   }
   void pass_level()
   {
-    const std::size_t target = targets().share(0).target;
+    const std::size_t target = targets().share(0).asked;
     m_filters.set_target(m_levels[m_next_level++]);
     m_on_level(report());
     m_filters.set_target(target);
