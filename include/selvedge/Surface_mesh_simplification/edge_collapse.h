@@ -70,7 +70,8 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 ///    time, since what is needed next is in the cache. A stop by cost may leave edges that cost up to an
 ///    eighth less than the one at which it stops. With `expected_collapses`, the cheapest edges are one
 ///    class, half as many as collapses are expected; when they are gone, half as many as are still expected,
-///    and so on until there are few in a tile. That saves another third of the time.
+///    and so on until there are few in a tile, or more edges have been refused than collapsed. That saves
+///    another third of the time.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.

@@ -65,7 +65,7 @@ auto geometric_test(bool is_made, const NamedParameters& parameters = CGAL::para
 
 /// Tells `selvedge::edge_collapse` about how many collapses it will make until its stop predicate ends it.
 /// With `use_relaxed_order(true)`, this relaxes the order further; without it, it has no effect. If there are
-/// fewer in the end, some tiles of the mesh are coarser than others.
+/// fewer in the end, some tiles of the mesh may be coarser than others.
 template <class NamedParameters = CGAL::parameters::Default_named_parameters>
 auto expected_collapses(std::size_t count,
                         const NamedParameters& parameters = CGAL::parameters::default_values())
