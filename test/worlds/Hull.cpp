@@ -194,16 +194,17 @@ bool Hull::meets_face_at_edge(const Place& x, const Place& y, const Place& z) co
 
 bool Hull::meets_collinear_face(const Standing_face& face) const
 {
-  Standing_face f = face; // its middle first
+  Standing_face f = face; // its middle first, or one of two corners at one place
   for (std::size_t k = 0; k < 3; ++k)
-    if (CGAL::collinear_are_strictly_ordered_along_line(face[(k + 1) % 3].at, face[k].at,
-                                                        face[(k + 2) % 3].at))
-      f = {face[k], face[(k + 1) % 3], face[(k + 2) % 3]};
+    if (const Place& next = face[(k + 1) % 3], &last = face[(k + 2) % 3];
+        face[k].at == next.at ||
+        CGAL::collinear_are_strictly_ordered_along_line(next.at, face[k].at, last.at))
+      f = {face[k], next, last};
   const bool is_shared[3] = {has_corner(f[0]), has_corner(f[1]), has_corner(f[2])};
   if (!is_shared[0] && is_shared[1] != is_shared[2])
     return is_shared[1] ? meets_segment_beyond(f[1], f[2]) : meets_segment_beyond(f[2], f[1]);
   if (!is_shared[0])
-    return !is_shared[1] && meets(Segment(f[1].at, f[2].at));
+    return !is_shared[1] && (f[1].at == f[2].at ? contains(f[1].at) : meets(Segment(f[1].at, f[2].at)));
   return (!is_shared[1] && meets_segment_beyond(f[0], f[1])) ||
          (!is_shared[2] && meets_segment_beyond(f[0], f[2]));
 }
