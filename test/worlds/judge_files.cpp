@@ -74,7 +74,7 @@ std::vector<Corner_points> corner_points(const Triangle_soup& soup, bool in_any_
 
 // The triangles of a soup with all that their corners have, in an order of their own: instances become nodes
 // in a progressive file, so that places of a mesh may follow each other otherwise.
-std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_normals)
+std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_normals, bool with_tangents)
 {
   std::vector<std::string> result;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -99,7 +99,7 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
       if (with_normals && !soup.normals.empty())
         add_numbers(soup.normals.values[soup.normals.of_triangle[t][k]]);
       for (const Attribute& attribute : soup.vertex_attributes)
-        if (with_normals || attribute.name != "TANGENT") // which turn with them, and are left out with them
+        if (with_tangents || attribute.name != "TANGENT")
           add(attribute.rows.data() + v * row_size(attribute), row_size(attribute));
     }
   }
@@ -192,9 +192,14 @@ Verdict judge_file(const World& world, const World_run& run)
 
 Verdict judge_progressive_file(const World_run& run)
 {
+  if (!run.last_level)
+    return std::nullopt;
   const bool with_normals = run.are_normals_kept();
-  if (!run.last_level ||
-      sorted_triangles(*run.last_level, with_normals) == sorted_triangles(run.read_back, with_normals))
+  // Tangents turn with normals. The reader leaves them to the scene where it joins vertices that differ in
+  // them, and which it joins depends on their order where normals are nearly equal.
+  const bool with_tangents = with_normals && tangents_of(*run.last_level) && tangents_of(run.read_back);
+  if (sorted_triangles(*run.last_level, with_normals, with_tangents) ==
+      sorted_triangles(run.read_back, with_normals, with_tangents))
     return std::nullopt;
   return Broken_promise{Promise::progression, "the last level in a file has not the triangles of the result"};
 }
