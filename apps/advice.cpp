@@ -119,19 +119,30 @@ std::string why_it_stays(Hindrance reason)
   }
 }
 
+/// Says what `remedy` costs, if that is the shape or the size of the file.
+std::string cost_of_remedy(Hindrance reason, const Simplified_soup& reduced)
+{
+  if (reason == Hindrance::companions)
+    return ", which may make " + with_commas(reduced.shared_places) + " meshes of " +
+           with_commas(reduced.shared_meshes);
+  return reason == Hindrance::error ? ", which costs shape" : "";
+}
+
 /// Options that are named to a user whose target was missed.
 struct Remedies
 {
   std::string text;      // empty when there is none
   std::size_t edges = 0; // that are held by the reasons against which they are
+  bool let_seams_gape = false;
 };
 
 /// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
 /// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
 /// one of them lets go may be held by the other.
-Remedies remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
-                  const Simplify_request& request)
+Remedies remedies(const std::vector<Hindrances::Description>& all, const Simplify_request& request,
+                  const Simplified_soup& reduced)
 {
+  const Hindrances& hindrances = reduced.report.hindrances;
   std::vector<std::pair<std::string, Hindrances::Description>> options;
   const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
   for (const Hindrances::Description& description : all) {
@@ -145,11 +156,17 @@ Remedies remedies(const std::vector<Hindrances::Description>& all, const Hindran
       break;
   }
   Remedies result;
+  std::string cost;
   for (const auto& [option, description] : options) {
     const bool is_clear = options.size() == 1 && description.reason == all[0].reason;
-    result.text += (result.text.empty() ? "" : " and ") + option +
-                   (is_clear ? "" : std::string(" against ") + description.name);
+    result.text += (result.text.empty() ? ""
+                    : cost.empty()      ? " and "
+                                        : ", and ") +
+                   option + (is_clear ? "" : std::string(" against ") + description.name);
+    cost = cost_of_remedy(description.reason, reduced);
+    result.text += cost;
     result.edges += hindrances[description.reason];
+    result.let_seams_gape |= description.reason == Hindrance::gap;
   }
   return result;
 }
@@ -211,18 +228,11 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  const Remedies options = remedies(all, hindrances, request);
+  const Remedies options = remedies(all, request, result);
   const std::string seams = seams_to_leave_out(prepared, hindrances, options),
-                    gaping = options.text.find("--weld") != std::string::npos
-                                 ? ""
-                                 : seams_to_let_gape(request, prepared, hindrances);
+                    gaping = options.let_seams_gape ? "" : seams_to_let_gape(request, prepared, hindrances);
   if (!options.text.empty())
-    text += "; try " + options.text +
-            (options.text.find("--instances") != std::string::npos
-                 ? ", which may make " + with_commas(result.shared_places) + " meshes of " +
-                       with_commas(result.shared_meshes)
-                 : "") +
-            (options.text.find("--error") != std::string::npos ? ", which costs shape" : "");
+    text += "; try " + options.text;
   else if (seams.empty() && gaping.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
   return text + seams + gaping;
