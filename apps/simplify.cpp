@@ -129,6 +129,8 @@ private:
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_missed_target.options();
+    if (!is_shape_kept(m_request)) // then no reduction follows that could use them
+      options.remembered_refusals.reset();
     options.placement = placement_for(m_request, m_input.prepared.soup);
     if (m_error_search)
       options.max_error = m_error_search->max_error();

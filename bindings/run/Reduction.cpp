@@ -65,8 +65,10 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   Missed_target missed_target(request.complete_options());
   do {
     Simplify_options options = missed_target.options();
-    if (m_error_search)
+    if (m_error_search) {
       options.max_error = m_error_search->max_error();
+      options.remembered_refusals.reset(); // of reductions with another error
+    }
     if (m_guarded_poses.size() < poses)
       options.guarded_poses = m_guarded_poses;
     std::vector<Soup_collapse> collapses;

@@ -337,8 +337,7 @@ private:
     if (movable == 0)
       return;
     const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
-    const double share =
-        double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
+    const double share = double(total.excess) / (faces_per_collapse * double(movable));
     Cell_collapses found;
     tbb::parallel_invoke(Cancellation_scope::inherited([&] {
                            found = reduce_in_cells({m_prepared,

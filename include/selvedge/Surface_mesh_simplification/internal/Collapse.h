@@ -12,6 +12,7 @@
 #include <CGAL/boost/graph/iterator.h>
 
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace selvedge {
@@ -101,6 +102,10 @@ public:
   Halfedge moving() const { return m_is_onto_v0 ? m_profile->v1_v0() : m_profile->v0_v1(); }
   Vertex mover() const { return m_is_onto_v0 ? m_profile->v1() : m_profile->v0(); }
   Vertex goal() const { return m_is_onto_v0 ? m_profile->v0() : m_profile->v1(); }
+
+  /// Distinguishes this collapse from all others of the same mesh, apart from those that go along with it.
+  using Key = std::tuple<Halfedge, bool, Point>;
+  Key key() const { return {moving(), are_both_moved(), m_place}; }
 
   /// Calls `is_fine(h, before, after, a, b)` for every face (v, a, b), counter-clockwise, that the collapse
   /// changes but does not remove, until a call returns false. `h` is its halfedge to v, `before` the position

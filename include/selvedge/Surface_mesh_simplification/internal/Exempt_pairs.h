@@ -66,7 +66,7 @@ public:
   template <class Profile>
   void consider(const Collapse<Profile>& collapse)
   {
-    if (m_known && m_known == question(collapse))
+    if (m_known && m_known == key(collapse))
       return;
     m_known.reset();
     m_is_concerned = m_descent.is_needed() && find_changes(collapse);
@@ -114,7 +114,7 @@ public:
   bool are_pairs_kept(const Collapse<Profile>& collapse, std::vector<Face>& blockers)
   {
     if (!m_is_concerned || (find_pairs_after(collapse, m_descent.pairs_now()) && is_depth_kept())) {
-      m_known = question(collapse);
+      m_known = key(collapse);
       return true;
     }
     for (const auto& [changed, other] : m_pairs_after)
@@ -138,14 +138,14 @@ public:
   }
 
 private:
-  // What distinguishes one collapse from others of the same mesh; none where vertices move together.
-  using Question = std::optional<std::tuple<Halfedge, bool, typename Vertices::Point>>;
+  // The key of a collapse (`Collapse::key`); none where vertices move together.
+  using Key = std::optional<std::tuple<Halfedge, bool, typename Vertices::Point>>;
   template <class Profile>
-  static Question question(const Collapse<Profile>& collapse)
+  static Key key(const Collapse<Profile>& collapse)
   {
     if (!collapse.others().empty())
       return {};
-    return std::tuple(collapse.moving(), collapse.are_both_moved(), collapse.place());
+    return collapse.key();
   }
 
   // Finds the faces that a collapse changes or removes. Returns whether they descend from offending ones.
@@ -278,7 +278,7 @@ private:
   double m_shallow = std::numeric_limits<double>::infinity(); // a depth
   bool m_is_concerned = false;
   bool m_has_degenerate = false; // whether a face that the collapse removes is degenerate
-  Question m_known;              // the collapse of which all that is asked here is known
+  Key m_known;                   // the collapse of which all that is asked here is known
 
   // Buffers, so that a question allocates nothing.
   std::vector<Id> m_considered, m_changed_ids; // the faces that a collapse changes or removes; changes alone

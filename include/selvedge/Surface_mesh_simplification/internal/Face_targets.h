@@ -44,9 +44,10 @@ public:
   {
     std::size_t faces = 0; ///< that it has now
     std::size_t fixed = 0; ///< of these, those that cannot change, because all their corners are locked
-    std::size_t target = 0;
+    std::size_t asked = 0; ///< the target as it was set
     std::size_t least = 0; ///< what no target is below
-    std::size_t asked = 0; ///< the target without this limit
+
+    std::size_t target() const { return (std::max)(least, asked); }
 
     /// Returns the target for a ratio of the faces that it has now: the ratio is of those that are not fixed.
     std::size_t at_ratio(double ratio) const
@@ -54,25 +55,23 @@ public:
       return (std::max)(least, fixed + Face_ratio_stop::face_target(ratio, faces - fixed));
     }
 
-    std::size_t excess() const { return faces - (std::min)(faces, target); }
+    std::size_t excess() const { return faces - (std::min)(faces, target()); }
+  };
+
+  /// Sums over all shares.
+  struct Total
+  {
+    std::size_t faces = 0, fixed = 0, target = 0;
+    std::size_t excess = 0;       ///< of faces over targets
+    std::size_t excess_asked = 0; ///< the same for the targets as they were set
   };
 
   explicit Face_targets(const TriangleMesh& mesh) : m_state(std::make_shared<State>(mesh)) {}
 
   const Share& share(std::size_t number) const { return m_state->shares[number]; }
   const std::vector<Share>& shares() const { return m_state->shares; }
-  void set_target(std::size_t number, std::size_t target)
-  {
-    Share& share = m_state->shares[number];
-    share.asked = target;
-    share.target = (std::max)(share.least, share.asked);
-  }
-  void set_least(std::size_t number, std::size_t faces)
-  {
-    Share& share = m_state->shares[number];
-    share.least = faces;
-    share.target = (std::max)(share.least, share.asked);
-  }
+  void set_target(std::size_t number, std::size_t target) { m_state->shares[number].asked = target; }
+  void set_least(std::size_t number, std::size_t faces) { m_state->shares[number].least = faces; }
 
   bool has_several_shares() const { return m_state->shares.size() > 1; }
 
@@ -162,31 +161,16 @@ public:
                        [](const Share& share) { return share.excess() == 0; });
   }
 
-  /// Sums faces and targets over all shares.
-  Share total() const
+  Total total() const
   {
-    Share total;
+    Total total;
     for (const Share& share : m_state->shares) {
       total.faces += share.faces;
       total.fixed += share.fixed;
-      total.target += share.target;
+      total.target += share.target();
+      total.excess += share.excess();
+      total.excess_asked += share.faces - (std::min)(share.faces, share.asked);
     }
-    return total;
-  }
-  std::size_t total_excess() const
-  {
-    std::size_t total = 0;
-    for (const Share& share : m_state->shares)
-      total += share.excess();
-    return total;
-  }
-
-  /// The same for the targets as they were asked for.
-  std::size_t total_excess_asked() const
-  {
-    std::size_t total = 0;
-    for (const Share& share : m_state->shares)
-      total += share.faces - (std::min)(share.faces, share.asked);
     return total;
   }
 

@@ -358,9 +358,10 @@ private:
   template <class Profile>
   static Remembered_refusals::Number number_of(const Collapse<Profile>& collapse)
   {
-    std::size_t number = 2 * std::size_t(collapse.moving()) + collapse.are_both_moved();
+    const auto [moving, are_both_moved, place] = collapse.key();
+    std::size_t number = 2 * std::size_t(moving) + are_both_moved;
     for (int axis = 0; axis < 3; ++axis)
-      boost::hash_combine(number, CGAL::to_double(collapse.place()[axis]));
+      boost::hash_combine(number, CGAL::to_double(place[axis]));
     return Remembered_refusals::Number(number);
   }
 

@@ -206,7 +206,7 @@ private:
         const std::size_t collapses_before = m_report.collapses;
         selvedge::edge_collapse(
             m_mesh, is_over(),
-            parameters::expected_collapses(is_target_known() ? targets().total_excess_asked() / 2 : 0,
+            parameters::expected_collapses(is_target_known() ? targets().total().excess_asked / 2 : 0,
                                            parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
                                                                                  .get_placement(places)
                                                                                  .vertex_point_map(m_points)
@@ -417,9 +417,9 @@ private:
     const auto total = targets().total();
     report.faces_output = total.faces;
     report.faces_target = total.target;
-    report.faces_to_go = targets().total_excess();
+    report.faces_to_go = total.excess;
     for (std::size_t i = 0; i < report.shares.size(); ++i) {
-      report.shares[i].target = targets().share(i).target;
+      report.shares[i].target = targets().share(i).target();
       report.shares[i].output = targets().share(i).faces;
     }
     report.refused = refusals();
