@@ -275,16 +275,14 @@ private:
 
   bool is_star_clear(const Motion& motion)
   {
+    m_view.begin();
     if (m_exempt.is_exempt_inside()) {
-      // No proof about the star as a whole holds where its faces may meet each other.
-      m_view.begin_without_view();
       const auto& star = m_star.exact();
       return std::all_of(star.moving.begin(), star.moving.end(),
                          [&](const auto& edge) { return is_face_kept(star, edge, m_traits); });
     }
     if (m_exempt.has_degenerate()) {
       // What is contracted within a segment meets nothing on the way, and has no side in any view.
-      m_view.begin_without_view();
       Vertex_motion<typename Vertices::Point> star = m_star.exact();
       star.contracted.erase(std::remove_if(star.contracted.begin(), star.contracted.end(),
                                            [&](const auto& edge) {
@@ -294,11 +292,8 @@ private:
                             star.contracted.end());
       return is_star_motion_clear(star, m_traits);
     }
-    if (motion.is_joint()) { // the link is no cycle
-      m_view.begin_without_view();
+    if (motion.is_joint()) // the link is no cycle
       return is_star_motion_clear(m_star.exact(), m_traits);
-    }
-    m_view.begin();
     if (m_view.is_star_clear()) {
       ++m_statistics.stars_clear_by_view;
       return true;

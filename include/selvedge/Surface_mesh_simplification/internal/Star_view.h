@@ -62,9 +62,6 @@ public:
   }
   bool has_view() const { return m_has_view; }
 
-  /// Called in place of `begin` for a star that must be judged face by face, without a view.
-  void begin_without_view() { m_has_view = m_has_projection = false; }
-
   /// Called for every point that the star numbers after `begin`.
   void add(const Point& point)
   {
