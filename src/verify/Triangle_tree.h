@@ -12,7 +12,7 @@
 
 #include <CGAL/Bbox_3.h>
 
-#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ namespace selvedge {
 /// A point with a number, for `sort_by_halves`.
 struct Numbered_point
 {
-  std::array<double, 3> coordinates;
+  std::array<float, 3> coordinates;
   Index number;
 };
 
@@ -34,9 +34,9 @@ struct Numbered_point
 /// points.
 void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 
-/// The boxes of triangles in a balanced binary tree. The judge finds in it pairs of triangles that may meet,
-/// and triangles near a point. As many threads as oneTBB grants build the tree and search for pairs; the
-/// answers do not depend on their number.
+/// The boxes of triangles in a balanced tree whose nodes have four children. The judge finds in it pairs of
+/// triangles that may meet, and triangles near a point. As many threads as oneTBB grants build the tree and
+/// search for pairs; the answers do not depend on their number.
 ///
 /// A box says little about a sliver askew to the axes: in a fringe, those of almost all threads meet. So such
 /// a triangle has a capsule as well, and so has a node of the tree where the capsule is long and thin. The
@@ -45,7 +45,8 @@ void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 /// Nor do boxes say anything about triangles that share a corner. So where very many do, a *fan*, the search
 /// for pairs asks for their cones, and has a fan in the order of its directions.
 ///
-/// **Exactness** Boxes are exact. Capsules and cones leave out only what is proved apart.
+/// **Exactness** Boxes consist of floats, rounded outwards: they contain what they enclose. Capsules and
+/// cones leave out only what is proved apart.
 class Triangle_tree
 {
 public:
@@ -62,7 +63,8 @@ public:
   template <class Function>
   void for_each_pair(const Function& function) const
   {
-    pairs_within(1, m_triangles.size(), function);
+    if (!m_levels.empty())
+      pairs_within(m_levels.size() - 1, 0, function);
   }
 
   /// Calls `function(i)` for each triangle whose box satisfies `is_wanted`, a predicate of `CGAL::Bbox_3`.
@@ -70,8 +72,8 @@ public:
   template <class Is_wanted, class Function>
   void visit(const Is_wanted& is_wanted, const Function& function) const
   {
-    if (!m_triangles.empty())
-      visit(is_wanted, function, 1);
+    if (!m_levels.empty())
+      visit(is_wanted, function, m_levels.size() - 1, 0);
   }
 
   /// Calls `function(i)` for triangles whose boxes are nearer to `query` than the root of `squared_bound`,
@@ -80,189 +82,211 @@ public:
   template <class Function>
   void approach(const Point_3& query, const double& squared_bound, const Function& function) const
   {
-    if (!m_triangles.empty())
-      approach(query, squared_bound, function, 1, squared_distance(query, m_nodes[1]));
+    if (!m_levels.empty())
+      approach(query, box_around(query), squared_bound, function, m_levels.size() - 1, 0);
   }
 
 private:
-  struct Box
+  using Vector = std::array<double, 3>;
+  using Four = std::array<float, 4>;
+
+  /// Four boxes by coordinate, so that they are asked at once. One that is not used is empty: it has its low
+  /// corner above its high one.
+  struct Quad
   {
-    std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
-    std::array<double, 3> high{-s_infinity, -s_infinity, -s_infinity};
-    std::size_t capsule = 0; // its number, or 0 when it has none
-    std::size_t fan = 0;     // likewise
+    std::array<Four, 3> low = filled(s_infinity), high = filled(-s_infinity);
 
-    CGAL::Bbox_3 bbox() const { return {low[0], low[1], low[2], high[0], high[1], high[2]}; }
+    bool is_empty(std::size_t k) const { return low[0][k] > high[0][k]; }
 
-    void add(const Box& other)
+  private:
+    static std::array<Four, 3> filled(float value)
     {
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = (std::min)(low[axis], other.low[axis]);
-        high[axis] = (std::max)(high[axis], other.high[axis]);
-      }
+      const Four four{value, value, value, value};
+      return {four, four, four};
     }
   };
 
-  static constexpr double s_infinity = std::numeric_limits<double>::infinity();
+  struct Box
+  {
+    std::array<float, 3> low, high;
+  };
+
+  /// Box 4 i + k of a level is number k of its quad i. It encloses the four of quad 4 i + k of the level
+  /// below; on level 0, one triangle. The last level is one quad.
+  struct Level
+  {
+    std::vector<Quad> quads;
+    std::vector<Index> capsules, fans; // by box: a number, or 0 when it has none; empty when all have none
+
+    void number(std::vector<Index> Level::*numbers, std::size_t box, Index number)
+    {
+      if (number != 0 && (this->*numbers).empty())
+        (this->*numbers).assign(4 * quads.size(), 0);
+      if (number != 0)
+        (this->*numbers)[box] = number;
+    }
+  };
+
   /// Triangles of one fan.
   struct Fan
   {
-    std::array<double, 3> apex;
+    Vector apex;
     Cone cone;
   };
 
-  static constexpr std::size_t s_leaf_size = 4;
-  static constexpr std::size_t s_task_size = 4096; // triangles below which another task does not pay
+  static constexpr float s_infinity = std::numeric_limits<float>::infinity();
+  static constexpr Index s_no_triangle = std::numeric_limits<Index>::max();
+  static constexpr std::size_t s_task_level = 5; // the first on which another task pays
 
-  static bool overlap(const Box& a, const Box& b)
+  // Returns a bit 4 k + i for each box k of one quad that meets box i of another.
+  static unsigned are_met(const Quad& a, const Quad& b);
+
+  // Returns squared distances in the unit of the boxes. Rounding adds less than 2^-20 of them.
+  static Four squared_distances(const Box& query, const Quad& quad)
   {
-    // Without branches, which would be mispredicted.
-    const auto is_met = [&](int axis) {
-      return int(a.low[axis] <= b.high[axis]) & int(b.low[axis] <= a.high[axis]);
+    const auto gap = [&](int axis, int i) {
+      const float below = quad.low[axis][i] - query.high[axis], above = query.low[axis] - quad.high[axis][i];
+      return (below > 0 ? below : 0) + (above > 0 ? above : 0);
     };
-    return (is_met(0) & is_met(1) & is_met(2)) != 0;
+    Four distances;
+    for (int i = 0; i < 4; ++i)
+      distances[i] = gap(0, i) * gap(0, i) + gap(1, i) * gap(1, i) + gap(2, i) * gap(2, i);
+    return distances;
   }
 
-  bool may_meet(const Box& a, const Box& b) const
+  static Index number_of(const std::vector<Index>& numbers, std::size_t box)
   {
-    return overlap(a, b) && (a.fan == 0 || b.fan == 0 || !are_in_fan_apart(a, b)) &&
-           ((a.capsule | b.capsule) == 0 || !are_capsules_apart(a, b));
+    return numbers.empty() ? 0 : numbers[box];
   }
 
-  // Whether `box` may hold something nearer to `query` than the root of `squared_bound`, from which it is a
-  // `squared` distance away.
-  bool may_be_near(const Point_3& query, const Box& box, double squared, double squared_bound) const
+  // Returns whether two boxes that meet are not proved to enclose things apart.
+  bool may_meet(const Level& level, std::size_t a, std::size_t b) const
   {
-    return squared < squared_bound && (box.capsule == 0 || !is_capsule_beyond(query, box, squared_bound));
+    return (level.fans.empty() || level.fans[a] == 0 || level.fans[b] == 0 ||
+            !are_in_fan_apart(level.fans[a], level.fans[b])) &&
+           (level.capsules.empty() || (level.capsules[a] | level.capsules[b]) == 0 ||
+            !are_capsules_apart(level, a, b));
   }
 
-  Capsule capsule_around(const Box& box) const;
-  bool is_capsule_beyond(const Point_3& query, const Box& box, double squared_bound) const;
-  bool are_capsules_apart(const Box& a, const Box& b) const;
-  bool are_in_fan_apart(const Box& a, const Box& b) const;
-
-  // Gives a box the capsule around what is in it, if this is slender.
-  void add_capsule(Box& box, const Capsule& capsule);
-
-  void add_fan(Box& box, const Fan& fan);
-
-  // Adds the boxes from `first` to `beyond` to a node, and gives it a capsule and a cone if they have some.
-  void enclose(Box& node, const Box* first, const Box* beyond);
-  void enclose_capsules(Box& node, const Box* first, const Box* beyond);
-  void enclose_fan(Box& node, const Box* first, const Box* beyond);
-
-  static double squared_distance(const Point_3& query, const Box& box)
+  // Chooses the frame in which boxes are written: its origin and unit.
+  void take_frame(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles);
+  double in_frame(double coordinate, int axis) const { return (coordinate - m_origin[axis]) * (1 / m_unit); }
+  // The bounds of a coordinate in the frame. Their room is more than rounding takes, in any mode: from the
+  // coordinate itself, and from the square of a distance so small that it vanishes.
+  static float lower(float coordinate) { return coordinate - room(coordinate); }
+  static float upper(float coordinate) { return coordinate + room(coordinate); }
+  static float room(float coordinate)
   {
-    double distance = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double gap = (std::max)({box.low[axis] - query[axis], 0.0, query[axis] - box.high[axis]});
-      distance += gap * gap;
+    return (coordinate < 0 ? -coordinate : coordinate) * 0x1p-21f + 0x1p-70f;
+  }
+  Box box_around(const Point_3& query) const;
+  CGAL::Bbox_3 bbox(const Level& level, std::size_t box) const;
+
+  Capsule capsule_around(const Level& level, std::size_t box) const;
+  bool is_capsule_beyond(const Point_3& query, Index capsule, double squared_bound) const;
+  bool are_capsules_apart(const Level& level, std::size_t a, std::size_t b) const;
+  bool are_in_fan_apart(Index a, Index b) const;
+
+  void add_capsules(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
+                    const std::vector<char>& is_askew);
+  void add_fans(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
+                const std::vector<Index>& hubs);
+  // These return the number of what is added, which is 0 for a capsule that is not slender.
+  Index add_capsule(const Capsule& capsule);
+  Index add_fan(const Fan& fan);
+  // These return the number of what encloses the four boxes of a quad, or 0 where that is none.
+  Index enclose_capsules(const Level& level, std::size_t quad);
+  Index enclose_fans(const Level& level, std::size_t quad);
+
+  template <class Function>
+  void pairs_within(std::size_t level, std::size_t quad, const Function& function) const
+  {
+    const Quad& boxes = m_levels[level].quads[quad];
+    if (level > 0)
+      in_turn_or_parallel(level, [&](std::size_t k) {
+        if (!boxes.is_empty(k))
+          pairs_within(level - 1, 4 * quad + k, function);
+      });
+    constexpr unsigned is_before = 0b0000'1000'1100'1110; // bit 4 k + i where k < i
+    pairs_of(level, quad, quad, are_met(boxes, boxes) & is_before, function);
+  }
+
+  // What is in the boxes of two quads that the bits name.
+  template <class Function>
+  void pairs_of(std::size_t level, std::size_t a, std::size_t b, unsigned met, const Function& function) const
+  {
+    in_turn_or_parallel(level, [&](std::size_t k) {
+      for (unsigned i = 0, left = met >> (4 * k) & 15; left != 0; ++i, left >>= 1)
+        if ((left & 1) != 0)
+          pair(level, 4 * a + k, 4 * b + i, function);
+    });
+  }
+
+  // What is in two boxes that meet.
+  template <class Function>
+  void pair(std::size_t level, std::size_t a, std::size_t b, const Function& function) const
+  {
+    if (!may_meet(m_levels[level], a, b))
+      return;
+    if (level == 0) {
+      function(m_triangles[a], m_triangles[b]);
+      return;
     }
-    return distance;
+    const std::vector<Quad>& quads = m_levels[level - 1].quads;
+    pairs_of(level - 1, a, b, are_met(quads[a], quads[b]), function);
   }
 
-  std::size_t leaves() const { return m_nodes.size() / 2; }
-  std::size_t first_of(std::size_t leaf) const { return m_triangles.size() * leaf / leaves(); }
-
-  template <class Function>
-  void for_each_in(std::size_t node, const Function& function) const
+  template <class Task>
+  static void in_turn_or_parallel(std::size_t level, const Task& task)
   {
-    const std::size_t leaf = node - leaves(), beyond = first_of(leaf + 1);
-    for (std::size_t i = first_of(leaf); i < beyond; ++i)
-      function(i);
-  }
-
-  template <class Function>
-  void pairs_within(std::size_t node, std::size_t size, const Function& function) const
-  {
-    if (size >= s_task_size)
+    if (level < s_task_level) {
+      for (std::size_t k = 0; k < 4; ++k)
+        task(k);
+    } else {
       Cancellation_scope::check();
-    if (node >= leaves()) {
-      for_each_in(node, [&](std::size_t i) {
-        for (std::size_t j = first_of(node - leaves()); j < i; ++j)
-          if (may_meet(m_boxes[i], m_boxes[j]))
-            function(m_triangles[i], m_triangles[j]);
-      });
-      return;
+      tbb::parallel_for(std::size_t(0), std::size_t(4), Cancellation_scope::inherited(task));
     }
-    const std::size_t left = 2 * node, right = 2 * node + 1;
-    in_turn_or_parallel(
-        size, [&] { pairs_within(left, size / 2, function); },
-        [&] { pairs_within(right, size / 2, function); },
-        [&] { pairs_between(left, right, size / 2, function); });
-  }
-
-  // Both nodes are on one level.
-  template <class Function>
-  void pairs_between(std::size_t a, std::size_t b, std::size_t size, const Function& function) const
-  {
-    if (!may_meet(m_nodes[a], m_nodes[b]))
-      return;
-    if (a >= leaves()) {
-      for_each_in(a, [&](std::size_t i) {
-        if (may_meet(m_boxes[i], m_nodes[b]))
-          for_each_in(b, [&](std::size_t j) {
-            if (may_meet(m_boxes[i], m_boxes[j]))
-              function(m_triangles[i], m_triangles[j]);
-          });
-      });
-      return;
-    }
-    const auto children = [&](std::size_t i, std::size_t j) {
-      return [&, i, j] { pairs_between(2 * a + i, 2 * b + j, size / 2, function); };
-    };
-    in_turn_or_parallel(size, children(0, 0), children(0, 1), children(1, 0), children(1, 1));
-  }
-
-  template <class... Tasks>
-  static void in_turn_or_parallel(std::size_t size, const Tasks&... tasks)
-  {
-    if (size < s_task_size)
-      (tasks(), ...);
-    else
-      tbb::parallel_invoke(Cancellation_scope::inherited(tasks)...);
   }
 
   template <class Is_wanted, class Function>
-  void visit(const Is_wanted& is_wanted, const Function& function, std::size_t node) const
+  void visit(const Is_wanted& is_wanted, const Function& function, std::size_t level, std::size_t quad) const
   {
-    if (!is_wanted(m_nodes[node].bbox()))
-      return;
-    if (node < leaves()) {
-      visit(is_wanted, function, 2 * node);
-      visit(is_wanted, function, 2 * node + 1);
-    } else {
-      for_each_in(node, [&](std::size_t i) {
-        if (is_wanted(m_boxes[i].bbox()))
-          function(m_triangles[i]);
-      });
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t box = 4 * quad + k;
+      if (m_levels[level].quads[quad].is_empty(k) || !is_wanted(bbox(m_levels[level], box)))
+        continue;
+      if (level == 0)
+        function(m_triangles[box]);
+      else
+        visit(is_wanted, function, level - 1, box);
     }
   }
 
   template <class Function>
-  void approach(const Point_3& query, const double& squared_bound, const Function& function, std::size_t node,
-                double distance) const
+  void approach(const Point_3& query, const Box& around, const double& squared_bound,
+                const Function& function, std::size_t level, std::size_t quad) const
   {
-    while (node < leaves()) {
-      if (!may_be_near(query, m_nodes[node], distance, squared_bound))
+    Four distances = squared_distances(around, m_levels[level].quads[quad]);
+    for (int turn = 0; turn < 4; ++turn) {
+      const std::size_t k = std::min_element(distances.begin(), distances.end()) - distances.begin();
+      if (!(double(distances[k]) * (1 - 0x1p-20) * m_unit * m_unit < squared_bound))
         return;
-      const double left = squared_distance(query, m_nodes[2 * node]);
-      const double right = squared_distance(query, m_nodes[2 * node + 1]);
-      const std::size_t nearer = right < left;
-      approach(query, squared_bound, function, 2 * node + nearer, (std::min)(left, right));
-      node = 2 * node + !nearer;
-      distance = (std::max)(left, right);
+      distances[k] = s_infinity;
+      const std::size_t box = 4 * quad + k;
+      if (const Index capsule = number_of(m_levels[level].capsules, box);
+          capsule != 0 && is_capsule_beyond(query, capsule, squared_bound))
+        continue;
+      if (level == 0)
+        function(m_triangles[box]);
+      else
+        approach(query, around, squared_bound, function, level - 1, box);
     }
-    if (may_be_near(query, m_nodes[node], distance, squared_bound))
-      for_each_in(node, [&](std::size_t i) {
-        if (may_be_near(query, m_boxes[i], squared_distance(query, m_boxes[i]), squared_bound))
-          function(m_triangles[i]);
-      });
   }
 
-  std::vector<Index> m_triangles; // in the order of the leaves, each of which has an equal share
-  std::vector<Box> m_boxes;       // in the same order
-  std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
+  std::vector<Index> m_triangles; // by box of level 0
+  std::vector<Level> m_levels;    // none when there are no triangles
+  Vector m_origin{};
+  double m_unit = 1;                  // of boxes; a power of two
   std::vector<Capsule> m_capsules{1}; // the first is nobody's
   std::vector<Fan> m_fans;            // by number less 1
   double m_largest = 0;               // of all coordinates

@@ -23,7 +23,7 @@ void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, c
   queries.reserve(vertices.size());
   for (const Index vertex : vertices) {
     const Point_3& point = from.points[vertex];
-    queries.push_back({{point.x(), point.y(), point.z()}, vertex});
+    queries.push_back({{float(point.x()), float(point.y()), float(point.z())}, vertex});
   }
   std::size_t parts = 1;
   while (4 * parts < queries.size())

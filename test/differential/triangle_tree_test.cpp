@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -252,6 +253,62 @@ TEST(TriangleTree, FindsTheSliverThatIsNearest)
                                   query, Kernel::Triangle_3(soup.points[a], soup.points[b], soup.points[c])));
         EXPECT_EQ(approached(tree, soup, query, std::numeric_limits<double>::infinity()).first, least);
       }
+  }
+}
+
+// Numbers that are one in single precision.
+TEST(TriangleTree, FindsTheNearestOfPointsThatAreHardlyApart)
+{
+  for (const double size : {1.0, 0x1p400, 0x1p-400})
+    for (int place = 0; place < 200; ++place) {
+      SCOPED_TRACE(place);
+      Triangle_soup points;
+      for (Index i = 0; i < 64; ++i) {
+        const double x = (1 + place * 0.001 + (i * 37 % 64) * 0x1p-45) * size;
+        points.points.emplace_back(place % 2 == 0 ? x : -x, 0, 0);
+        points.triangles.push_back({i, i, i});
+      }
+      points.points.emplace_back(-8 * size, 5 * size, 0);
+      points.triangles.push_back({64, 64, 64});
+      const Triangle_tree tree(points.points, points.triangles);
+      const Point_3 query(0, 0.25 * size, 0);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Point_3& p : points.points)
+        least = std::min(least, CGAL::squared_distance(query, p));
+      for (Index i = 0; i < 64; ++i) { // a guess, from which a search starts
+        double bound = CGAL::squared_distance(query, points.points[i]);
+        tree.approach(query, bound, [&](Index k) {
+          bound = std::min(bound, CGAL::squared_distance(query, points.points[k]));
+        });
+        EXPECT_EQ(bound, least) << i;
+      }
+    }
+}
+
+TEST(TriangleTree, VisitsEveryTriangleWhoseBoxIsTouched)
+{
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Triangle_soup soup = random_slivers(seed, 96, 0.1, 1);
+    if (seed % 4 == 1)
+      soup = moved(soup, 1e6, -3e5, 2e7);
+    else if (seed % 4 > 1)
+      soup = mapped(soup, [&](const Point_3& p) {
+        const int exponent = seed % 4 == 2 ? -1060 : 1018;
+        return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
+      });
+    const Triangle_tree tree(soup.points, soup.triangles);
+    for (Index i = 0; i < soup.triangles.size(); ++i) {
+      const auto& [a, b, c] = soup.triangles[i];
+      const CGAL::Bbox_3 box = soup.points[a].bbox() + soup.points[b].bbox() + soup.points[c].bbox();
+      for (const Point_3& corner :
+           {Point_3(box.xmin(), box.ymin(), box.zmin()), Point_3(box.xmax(), box.ymax(), box.zmax())}) {
+        std::set<Index> visited;
+        tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(corner.bbox(), other); },
+                   [&](Index k) { EXPECT_TRUE(visited.insert(k).second); });
+        EXPECT_EQ(visited.count(i), 1U) << i;
+      }
+    }
   }
 }
 

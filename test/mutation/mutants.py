@@ -119,6 +119,14 @@ group(
     "src/verify/Triangle_tree.cpp",
     ("triangle_tree_test",),
     ("std::sqrt(squared_bound) + margin", "std::sqrt(squared_bound) / 2 + margin", "slivers within the bound are passed by"),
+    ("met[12 + i] << 12;", "met[8 + i] << 12;", "the last box of a quad meets what the third does"),
+)
+group(
+    "src/verify/Triangle_tree.h",
+    ("triangle_tree_test",),
+    ("* 0x1p-21f + 0x1p-70f", "* 0x1p-30f + 0x1p-70f", "boxes have less room than rounding takes"),
+    ("0b0000'1000'1100'1110", "0b0000'0000'1100'1110", "the last two boxes of a quad are no pair"),
+    sources=("src/verify/Triangle_tree.cpp",),
 )
 
 group(
