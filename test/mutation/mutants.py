@@ -128,6 +128,14 @@ group(
     ("0b0000'1000'1100'1110", "0b0000'0000'1100'1110", "the last two boxes of a quad are no pair"),
     sources=("src/verify/Triangle_tree.cpp",),
 )
+group(
+    "src/verify/distances.cpp",
+    ("verify_distances_test",),
+    ("m_points[m_table[slot]] != p", "m_points[m_table[slot]].x() != p.x()", "places on one plane are one"),
+    ("const std::vector<Index> vertices = used_vertices(soup);",
+     "std::vector<Index> vertices(m_points.size());\n    std::iota(vertices.begin(), vertices.end(), Index(0));",
+     "vertices that no triangle has are on the surface"),
+)
 
 group(
     headers + "geometry/sweep.h",

@@ -128,6 +128,32 @@ TEST(Distance, LooksAtUsedVerticesOnly)
   EXPECT_EQ(distance(from, to).root_mean_square, 50); // one vertex of four
 }
 
+TEST(Distance, IsNotThatOfUnusedVerticesOfTheOther)
+{
+  Triangle_soup to = one_triangle();
+  to.points.emplace_back(0, 0, 100);
+  EXPECT_EQ(distance(soup({{0, 0, 100}}, {{0, 0, 0}}), to).maximum, 100);
+}
+
+// Vertices of both are looked up, and the surface is searched for the others alone.
+TEST(Distance, IsZeroWhereTheOtherHasAVertexAndNowhereElse)
+{
+  Triangle_soup to, from;
+  for (int i = 0; i < 4096; ++i) {
+    const Point_3 p(i % 16 - 8, i / 16 % 16 - 8, i / 256 - 8.0);
+    to.points.push_back(p);
+    to.triangles.push_back({Index(i), Index(i), Index(i)});
+    from.points.emplace_back(p.x() == 0 ? -0.0 : p.x(), p.y(), p.z());
+  }
+  from.triangles = to.triangles;
+  EXPECT_EQ(distance(from, to).maximum, 0);
+  for (Index i = 0; i < from.points.size(); i += 5)
+    from.points[i] = Point_3(from.points[i].x(), from.points[i].y(), from.points[i].z() + 0x1p-40);
+  const std::vector<double> distances = vertex_distances(from, to);
+  for (Index i = 0; i < distances.size(); ++i)
+    EXPECT_EQ(distances[i], i % 5 == 0 ? 0x1p-40 : 0) << i;
+}
+
 TEST(Distance, IsTheLargestOfThoseOfTheVertices)
 {
   std::mt19937 random(7);
