@@ -6,6 +6,7 @@
 #include "soup/Disjoint_sets.h"
 #include "soup/texture.h"
 #include "verify/Diagonal.h"
+#include "verify/for_each_chunk.h"
 
 #include <selvedge/Cancellation_scope.h>
 
@@ -98,9 +99,12 @@ public:
   }
   bool empty() const { return m_uvs.empty(); }
 
-  Uv uv_near(const Point_3& query) const
+  /// Returns the texture coordinates at the point that is nearest to `query`. The search starts from the
+  /// triangle `guess`, which becomes the one that was found.
+  Uv uv_near(const Point_3& query, Index& guess) const
   {
-    const auto nearest = m_tree->nearest(query, 0);
+    const auto nearest = m_tree->nearest(query, guess);
+    guess = nearest.triangle;
     const Triangle_3 t = m_surface->triangle(nearest.triangle);
     const std::array<Uv, 3>& uv = m_uvs[nearest.triangle];
     const Kernel::Vector_3 normal = m_surface->normal(nearest.triangle);
@@ -137,19 +141,25 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     chart.build();
 
   displacements.assign(original.triangles.size(), 0);
-  const auto measure = [&](Index t) {
-    static thread_local Cancellation_poll poll;
-    poll();
-    const auto chart = charts.find(charts_of_original[t]);
-    if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
-      return;
-    const auto [a, b, c] = uvs_of(original, t);
-    const Triangle_3 triangle = triangle_of(original, t, prepared.scale);
-    const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
-    displacements[t] =
-        unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
+  // Files mostly have neighbours one after the other, so that the last answer is a good guess at the next.
+  const auto measure = [&](std::size_t, std::size_t first, std::size_t beyond) {
+    auto chart = charts.end();
+    Index guess = 0;
+    for (Index t = Index(first); t < beyond; ++t) {
+      if (chart == charts.end() || chart->first != charts_of_original[t]) {
+        chart = charts.find(charts_of_original[t]);
+        guess = 0;
+      }
+      if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
+        continue;
+      const auto [a, b, c] = uvs_of(original, t);
+      const Triangle_3 triangle = triangle_of(original, t, prepared.scale);
+      const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]), guess);
+      displacements[t] =
+          unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
+    }
   };
-  tbb::parallel_for(Index(0), Index(original.triangles.size()), Cancellation_scope::inherited(measure));
+  internal::for_each_chunk(original.triangles.size(), 1024, measure);
   return displacements;
 }
 
