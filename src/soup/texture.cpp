@@ -23,6 +23,18 @@ double rounded_unit(double unit)
   return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
 }
 
+// Across a thinner triangle, normals turn by what lies on its two sides, over a width that means nothing.
+constexpr double s_aspect_ratio_of_sliver = 0.01;
+
+bool is_sliver(const std::array<Point_3, 3>& points, double area)
+{
+  const auto squared = [&](std::size_t k, std::size_t l) {
+    return CGAL::to_double(CGAL::squared_distance(points[k], points[l]));
+  };
+  const double longest = std::max({squared(0, 1), squared(1, 2), squared(2, 0)});
+  return !(4 / std::sqrt(3.0) * area >= s_aspect_ratio_of_sliver * longest);
+}
+
 } // namespace
 
 double uv_unit(const Triangle_soup& soup, const Scale& scale)
@@ -61,7 +73,7 @@ double normal_unit(const Triangle_soup& soup, const Scale& scale, const Vertex_n
       normals[k] = of_vertices ? (*of_vertices)[v] : soup.normals.values[soup.normals.of_triangle[t][k]];
     }
     const double of_triangle = std::sqrt(CGAL::squared_area(points[0], points[1], points[2]));
-    if (!(of_triangle > 0))
+    if (!(of_triangle > 0) || is_sliver(points, of_triangle))
       continue;
     // The integral of the squared gradient: the sum of cot(angle) / 2 × squared turn along the edge beyond.
     double sum = 0;

@@ -17,8 +17,9 @@ namespace selvedge {
 double uv_unit(const Triangle_soup& soup, const Scale& scale = Scale());
 
 /// Returns the length on the surface that a turn of the normal by one radian stands for, divided by the
-/// scale: the radius of a curvature like that which the normals tell, on the mean over the area. 0 when they
-/// do not turn. The normals are those of the corners of the soup, or `of_vertices`.
+/// scale: the radius of a curvature like that which the normals tell, on the mean over the area. Slivers, of
+/// an aspect ratio below 0.01, do not count. 0 when no normal turns. Normals are at corners, or
+/// `of_vertices`.
 double normal_unit(const Triangle_soup& soup, const Scale& scale = Scale(),
                    const Vertex_normals* of_vertices = nullptr);
 

@@ -252,6 +252,18 @@ TEST(Normals, HaveTheRadiusOfCurvatureAsTheirUnit)
       p = Point_3(radius * p.x() / length, radius * p.y() / length, radius * p.z() / length);
     }
     EXPECT_NEAR(normal_unit(sphere), radius, 0.02 * radius);
+
+    // A sliver, across which the normal turns back, tells nothing of the curvature.
+    const double unit = normal_unit(sphere);
+    const auto [a, b, c] = sphere.triangles.front();
+    const auto middle = CGAL::midpoint(sphere.points[a], sphere.points[b]);
+    sphere.points.push_back(middle + 1e-4 * (sphere.points[c] - middle));
+    sphere.triangles.push_back({b, a, Index(sphere.points.size() - 1)});
+    sphere.normals.values.push_back(sphere.normals.values[a]);
+    for (double& x : sphere.normals.values.back())
+      x = -x;
+    sphere.normals.of_triangle.push_back(sphere.triangles.back());
+    EXPECT_EQ(normal_unit(sphere), unit);
   }
   Triangle_soup flat = sheet(3, 3);
   flat.normals.values = {{0, 0, 1}};
