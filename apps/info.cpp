@@ -39,7 +39,7 @@ struct Info_request
   std::optional<std::size_t> threads;
 };
 
-constexpr std::size_t most_printed = 5, most_parts_printed = 12, most_listed = 100;
+constexpr std::size_t most_parts_printed = 12, most_listed = 100;
 
 const char* format_name(Mesh_format format)
 {
@@ -73,15 +73,6 @@ const char* normals_name(Normals_of_file normals)
     return "per_corner";
   }
   return "";
-}
-
-/// Returns the first few of some words in a sentence.
-std::string listed(const std::vector<std::string>& words, std::size_t most = most_printed)
-{
-  std::string text;
-  for (std::size_t i = 0; i < (std::min)(most, words.size()); ++i)
-    text += (i == 0 ? "" : ", ") + words[i];
-  return words.size() > most ? text + " and " + with_commas(words.size() - most) + " more" : text;
 }
 
 /// Describes the kind of a piece or surface in words, such as "closed, of genus 1".

@@ -425,10 +425,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   for (const std::string& what : dropped)
     stream << std::exchange(separator, ", ") << what;
   stream << (dropped.empty() ? "" : "\n");
-  separator = "  files beside the input are named from the output's folder: ";
-  for (const std::string& name : references)
-    stream << std::exchange(separator, ", ") << name;
-  stream << (references.empty() ? "" : "\n");
+  if (!references.empty())
+    stream << "  files beside the input are named from the output's folder: " << listed(references) << '\n';
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,

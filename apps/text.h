@@ -8,11 +8,13 @@
 #include <selvedge/replay.h>
 #include <selvedge/verify.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace selvedge::app {
 
@@ -29,6 +31,17 @@ inline std::string with_commas(std::size_t number)
 inline std::string counted(std::size_t number, const std::string& noun, const std::string& plural = "")
 {
   return with_commas(number) + ' ' + (number == 1 ? noun : plural.empty() ? noun + 's' : plural);
+}
+
+constexpr std::size_t most_printed = 5; ///< of the words of a list
+
+/// Returns the first few of some words in a sentence.
+inline std::string listed(const std::vector<std::string>& words, std::size_t most = most_printed)
+{
+  std::string text;
+  for (std::size_t i = 0; i < (std::min)(most, words.size()); ++i)
+    text += (i == 0 ? "" : ", ") + words[i];
+  return words.size() > most ? text + " and " + with_commas(words.size() - most) + " more" : text;
 }
 
 /// What is said of the corners that `share_vertices_without_normals` joins.

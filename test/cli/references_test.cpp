@@ -81,6 +81,11 @@ TEST(App_references, OfAGltfLeadToItsImages)
   EXPECT_EQ(images[1]["uri"], "https://somewhere/c.png");
   EXPECT_EQ(images[2]["uri"], "data:,");
   EXPECT_NE(moved.out.find("output's folder: ../in/my tex/a b.png\n"), std::string::npos) << moved.out;
+  for (int i = 0; i < 9; ++i)
+    document["images"].push_back({{"uri", "image_" + std::to_string(i) + ".png"}});
+  write_text(mesh, document.dump());
+  const App_result listed = run_app({"simplify", mesh, "-o", folder / "out/out.gltf", "--ratio", "0.5"});
+  EXPECT_NE(listed.out.find(", ../in/image_3.png and 5 more\n"), std::string::npos) << listed.out;
   // Where nothing moves, nothing changes.
   run_app({"simplify", mesh, "-o", folder / "in/out.gltf", "--ratio", "0.5"});
   EXPECT_EQ(Json::parse(contents_of(folder / "in/out.gltf"))["images"], document["images"]);
