@@ -9,7 +9,9 @@
 #include "files/gltf_levels.h"
 #include "files/gltf_quantization.h"
 #include "files/row_unlike.h"
+#include "files/tangents_of_faces.h"
 
+#include "soup/flat_shading.h"
 #include "soup/gltf_transforms.h"
 #include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
@@ -25,6 +27,7 @@
 #include <set>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 // Reads glTF and GLB: all triangles of the scene become one soup in world space. The rest of the document is
 // kept in a `Gltf_scene`, so that the reduced triangles can be written back into it.
@@ -498,6 +501,7 @@ private:
     std::iota(soup().scene_vertices.begin(), soup().scene_vertices.end(), Index(0));
     for (std::size_t i = 0; i < m_scene->parts.size(); ++i)
       add_triangles(i);
+    join_tangents();
     add_materials();
     add_uvs();
     add_normals();
@@ -587,6 +591,25 @@ private:
       result.push_back(first_of.emplace(std::move(row), i).first->second);
     }
     return result;
+  }
+
+  // Joins the tangents of blocks in which every face has vertices of its own.
+  void join_tangents()
+  {
+    std::vector<std::size_t> triangles(m_scene->blocks.size(), 0), vertices(m_scene->blocks.size(), 0);
+    std::vector<char> is_counted(soup().points.size(), false);
+    for (std::size_t t = 0; t < soup().triangles.size(); ++t) {
+      m_poll();
+      const Gltf_scene::Part& part = m_scene->parts[soup().groups.of_triangle[t]];
+      const Index block = m_scene->instances[part.instance].block;
+      ++triangles[block];
+      for (const Index v : soup().triangles[t])
+        vertices[block] += !std::exchange(is_counted[v], true);
+    }
+    for (std::size_t i = 0; i < m_scene->blocks.size(); ++i)
+      if (have_faces_own_vertices(triangles[i], vertices[i]))
+        if (const std::size_t joined = join_tangents_of_faces(m_scene->blocks[i]); joined > 0)
+          remark("vertices that differ in nothing but their tangents, which get the mean of these", joined);
   }
 
   void add_materials()

@@ -170,7 +170,8 @@ private:
     };
     std::unordered_map<std::string, Shared_vertex> vertices; // by the bytes that stay
     const std::vector<char> is_used = are_used(m_soup);
-    const bool have_faces_own = have_faces_own_vertices(m_soup, count_of_used_vertices(m_soup));
+    const bool have_faces_own =
+        have_faces_own_vertices(m_soup.triangles.size(), count_of_used_vertices(m_soup));
     std::vector<Index> first(m_soup.points.size(), s_none);
     std::vector<char> is_shared(m_soup.points.size(), have_faces_own); // by first vertex
     Cancellation_poll poll;

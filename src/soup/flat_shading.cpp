@@ -142,7 +142,7 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing, const std::vect
     return 0;
   const std::size_t used =
       normals.size() - std::size_t(std::count(normals.begin(), normals.end(), s_no_number));
-  const bool have_faces_own = have_faces_own_vertices(soup, used);
+  const bool have_faces_own = have_faces_own_vertices(soup.triangles.size(), used);
   std::vector<Index> uvs;
   if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
     uvs = numbers_of_vertices(soup, soup.uvs.of_triangle, are_equal);
@@ -229,10 +229,10 @@ std::size_t corners_changed(const std::vector<Index_triple>& before, const std::
   return result;
 }
 
-bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used)
+bool have_faces_own_vertices(std::size_t triangles, std::size_t vertices)
 {
   constexpr std::size_t few = 100;
-  return soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
+  return triangles >= few && vertices >= 2 * triangles;
 }
 
 std::size_t share_split_vertices(Triangle_soup& soup)

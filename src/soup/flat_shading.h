@@ -56,9 +56,9 @@ std::size_t share_split_vertices(Triangle_soup& soup);
 /// Returns how many corners name another vertex after vertices were joined.
 std::size_t corners_changed(const std::vector<Index_triple>& before, const std::vector<Index_triple>& after);
 
-/// Whether every face has vertices of its own: at least 100 triangles, and twice as many vertices, of which
-/// `used` are in use.
-bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used);
+/// Whether every one of so many triangles has vertices of its own: at least 100 of them, and twice as many
+/// vertices, counted as far as they are in use.
+bool have_faces_own_vertices(std::size_t triangles, std::size_t vertices);
 
 /// Takes the tangents out of `vertex_attributes` where vertices of different ones have become one: the scene
 /// alone holds them then, since other formats have one row for each vertex.

@@ -10,6 +10,7 @@
 #include "support/vertices_used.h"
 
 #include "files/Local_normals.h"
+#include "soup/flat_shading.h"
 #include "soup/gltf_transforms.h"
 #include <selvedge/compare.h>
 #include <selvedge/inspect.h>
@@ -422,6 +423,47 @@ TEST(Gltf_tangents, AreLeftToTheSceneWhereVerticesHaveSeveral)
     EXPECT_EQ(file.soup.vertex_attributes.size(), is_flat ? 0u : 1u);
     EXPECT_EQ(contents_of(file).attributes, std::vector<std::string>{"TANGENT"});
   }
+}
+
+/// Turns the tangents of every other triangle by about this angle about the normals, and the others the other
+/// way, each by one of its own.
+Document with_tangents_of_faces(const Triangle_soup& soup, bool is_mirrored, double angle)
+{
+  Document document = document_of_corners(soup, is_mirrored);
+  Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TANGENT"] =
+      add_rows<float>(document, 3 * soup.triangles.size(), 4, 5126, [&](std::size_t i, std::size_t k) {
+        const std::array<double, 3>& n = soup.normals.values[soup.normals.of_triangle[i / 3][i % 3]];
+        const std::array<double, 4> t = tangent_at(soup, i, is_mirrored);
+        const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+        const double own = (i / 3 % 2 == 0 ? angle : -angle) * (1 - 1e-4 * double(i / 3));
+        return k == 3 ? t[3] : std::cos(own) * t[k] + std::sin(own) * (n[l] * t[m] - n[m] * t[l]);
+      });
+  return document;
+}
+
+TEST(Gltf_tangents, OfFacesBecomeTheirMean)
+{
+  for (const bool is_mirrored : {false, true}) {
+    const Mesh_file file =
+        read_glb(with_tangents_of_faces(hills(Normals_treatment::smooth), is_mirrored, 0.4));
+    EXPECT_EQ(vertices_used(file.soup), places + (is_mirrored ? along_middle : 0));
+    EXPECT_FALSE(has_tangents_in_scene_only(file.soup));
+    expect_tangents(file.soup, is_mirrored);
+    const Reduction result = reduce(file.soup, to_ratio(0.1), with_normals(Normals_choice::automatic));
+    EXPECT_TRUE(result.verification.accepted());
+    EXPECT_LE(result.simplified.soup.triangles.size(), file.soup.triangles.size() / 10);
+    expect_tangents(result.simplified.soup, is_mirrored);
+  }
+}
+
+TEST(Gltf_tangents, OfFacesStayWhereTheyRunApart)
+{
+  const Triangle_soup soup = hills(Normals_treatment::smooth);
+  const double right_angle = std::acos(0.);
+  EXPECT_EQ(vertices_used(read_glb(with_tangents_of_faces(soup, false, 0.5 * right_angle)).soup), places);
+  Document document = with_tangents_of_faces(soup, false, right_angle);
+  EXPECT_GT(vertices_used(read_glb(document).soup), 2 * places - 10);
 }
 
 TEST(Gltf_tangents, HaveADirectionPerpendicularToAnyNormal)
