@@ -3,8 +3,6 @@
 
 #include "files/gltf_encoding.h"
 
-#include "soup/with_number.h"
-
 #include <selvedge/Cancellation_scope.h>
 
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
@@ -22,7 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -387,29 +384,21 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
 std::optional<std::array<double, 3>> quantised_direction(const Gltf_scene::Column& column,
                                                          const std::array<double, 3>& direction)
 {
+  const auto quantised = [&](std::size_t k) { return column.nearest_quantised(direction[k], k); };
   if (column.quantised_accessor && column.quantised_accessor->value("normalized", false))
-    return with_number(attribute_type((*column.quantised_accessor)["componentType"]), [&](auto zero) {
-      constexpr double one = double(std::numeric_limits<decltype(zero)>::max());
-      std::array<double, 3> result;
-      for (std::size_t k = 0; k < 3; ++k)
-        result[k] =
-            float(std::round(std::clamp(direction[k], -1., 1.) * one) / one + 0.); // -0 is no whole number
-      return result;
-    });
+    return std::array<double, 3>{quantised(0), quantised(1), quantised(2)};
 #ifdef SELVEDGE_HAS_DRACO
   if (!column.compression || !column.compression->quantisation)
     return std::nullopt;
   const Gltf_scene::Compression::Quantisation& quantisation = *column.compression->quantisation;
-  if (!quantisation.origin.empty()) { // steps in a box, as Draco computes them
-    const float most = float((1u << quantisation.bits) - 1), size = quantisation.range / most;
-    std::array<double, 3> result;
+  if (!quantisation.origin.empty()) {    // steps in a box
+    constexpr double most_beyond = 0.01; // of its size: a tangent that has turned with a normal, say
     for (std::size_t k = 0; k < 3; ++k) {
-      const double step = std::round((direction[k] - quantisation.origin[k]) / size);
-      if (!(step >= 0 && step <= most))
+      const double from_corner = direction[k] - quantisation.origin[k], range = quantisation.range;
+      if (!(std::max(-from_corner, from_corner - range) <= most_beyond * range))
         return std::nullopt;
-      result[k] = float(step) * size + quantisation.origin[k];
     }
-    return result;
+    return std::array<double, 3>{quantised(0), quantised(1), quantised(2)};
   }
   draco::OctahedronToolBox directions;
   std::int32_t s, t;

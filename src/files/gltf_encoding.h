@@ -37,8 +37,8 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
 
 /// Returns the direction nearest to that of a normal or tangent, or of what a morph target adds to it, among
 /// those that its column could give in the file: of whole numbers by KHR_mesh_quantization, from -1 to 1, or
-/// quantised by Draco. Nothing where the column held floats, or where the direction is not in the box in
-/// which Draco quantised it.
+/// quantised by Draco. Nothing where the column held floats, or where the direction is farther beyond the box
+/// in which Draco quantised it than a hundredth of its size.
 std::optional<std::array<double, 3>> quantised_direction(const Gltf_scene::Column& column,
                                                          const std::array<double, 3>& direction);
 

@@ -23,6 +23,26 @@ std::size_t Gltf_scene::instance_of(Index scene_vertex) const
   return std::size_t(beyond - instances.begin()) - 1;
 }
 
+double Gltf_scene::Column::nearest_quantised(double number, std::size_t component) const
+{
+  if (quantised_accessor) {
+    const bool is_fraction = quantised_accessor->value("normalized", false);
+    return with_number(attribute_type((*quantised_accessor)["componentType"]), [&](auto zero) {
+      using Limits = std::numeric_limits<decltype(zero)>;
+      const double most = double(Limits::max()), unit = is_fraction ? most : 1,
+                   least = std::max(double(Limits::lowest()), is_fraction ? -most : double(Limits::lowest()));
+      return double(float(std::clamp(std::round(number * unit), least, most) / unit + 0.)); // not -0
+    });
+  }
+  if (!compression || !compression->quantisation || compression->quantisation->origin.empty())
+    return number;
+  const Compression::Quantisation& quantisation = *compression->quantisation;
+  if (!(quantisation.range > 0))
+    return quantisation.origin[component];
+  const double step = quantisation.step_at(number, component);
+  return quantisation.number_at(std::clamp(step, 0., double(quantisation.steps())), component);
+}
+
 std::size_t component_size(int component_type)
 {
   switch (component_type) {

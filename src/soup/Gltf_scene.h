@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -39,6 +40,18 @@ struct Gltf_scene
       int bits = 0;
       std::vector<float> origin; ///< empty where the column was quantised as directions
       float range = 0;
+
+      /// The number of steps in the range, and what Draco makes of one of them.
+      float steps() const { return float((1u << bits) - 1); }
+      double number_at(double step, std::size_t component) const
+      {
+        return float(step) * (range / steps()) + origin[component];
+      }
+      /// Returns the step nearest to a number, which may be beyond the range.
+      double step_at(double number, std::size_t component) const
+      {
+        return std::round((number - origin[component]) / (range / steps()));
+      }
     };
     std::optional<Quantisation> quantisation; ///< none where no bit was lost
   };
@@ -72,6 +85,10 @@ struct Gltf_scene
     {
       return std::string_view(rows).substr(number * row_size, row_size);
     }
+
+    /// Returns what a component can be, near a number, such that the file can hold the column as it did: in
+    /// whole numbers, or quantised by Draco. Returns the number where neither is so.
+    double nearest_quantised(double number, std::size_t component) const;
 
     /// Returns the same column without its rows.
     Column without_rows() const

@@ -52,8 +52,9 @@ internal::Optional<Point_3> Place_rounding::operator()(const Point_3& place, Ind
   Point_3 result(rounded[0], rounded[1], rounded[2]);
   if (m_are_places_in_scene) {
     const Gltf_scene& scene = *m_soup.scene;
-    const std::size_t instance = scene.instance_of(m_soup.scene_vertices[vertex]);
-    const auto in_node = nearest_world_position(scene.instances[instance].to_world, m_scale.undone(result));
+    const auto& instance = scene.instances[scene.instance_of(m_soup.scene_vertices[vertex])];
+    const auto in_node = nearest_world_position(
+        instance.to_world, scene.blocks[instance.block].attributes.front(), m_scale.undone(result));
     if (!in_node)
       return {};
     result = m_scale(*in_node);

@@ -65,6 +65,8 @@ Vertex_values::Vertex_values(const Triangle_soup& soup)
       columns.push_back({column.name, attribute_type(column.component_type), column.components,
                          column.is_normalized(), reinterpret_cast<const unsigned char*>(column.rows.data()),
                          column.row_size, place, target});
+      if (!begins_with(column.name, "WEIGHTS_")) // whose sum is 1
+        columns.back().quantised = &column;
     };
     for (std::size_t i = 1; i < block.attributes.size(); ++i) // after the position
       add(block.attributes[i], i, s_none);
@@ -144,19 +146,21 @@ double Vertex_values::number(const Column& column, std::size_t row, std::size_t 
   });
 }
 
-// Returns what a number becomes when it is stored as this type.
-double Vertex_values::stored(Attribute::Type type, double number)
+// Returns what a number becomes when it is stored.
+double Vertex_values::stored(const Column& column, double number, std::size_t component)
 {
-  if (type == Attribute::Type::float32)
+  if (column.quantised)
+    number = column.quantised->nearest_quantised(number, component);
+  if (column.type == Attribute::Type::float32)
     return nearest_float32(number);
-  return with_number(type, [&](auto zero) { return double(nearest_number<decltype(zero)>(number)); });
+  return with_number(column.type, [&](auto zero) { return double(nearest_number<decltype(zero)>(number)); });
 }
 
 void Vertex_values::write(const Column& column, const Numbers& numbers, void* bytes)
 {
   with_number(column.type, [&](auto number) {
     for (std::size_t i = 0; i < column.components; ++i) {
-      number = nearest_number<decltype(number)>(numbers[column.first + i]);
+      number = static_cast<decltype(number)>(stored(column, numbers[column.first + i], i));
       std::memcpy(static_cast<unsigned char*>(bytes) + i * sizeof number, &number, sizeof number);
     }
   });
@@ -205,7 +209,7 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
         result[i] += share.weight * at(share);
     if (column) {
       // What the accessor will hold, as its reader makes it a coordinate.
-      const double number = stored(column->type, std::isfinite(result[i]) ? result[i] : at(own));
+      const double number = stored(*column, std::isfinite(result[i]) ? result[i] : at(own), i);
       const double coordinate = fraction(column->type, number);
       result[i] = i == 0 ? coordinate : 1 - coordinate;
     } else {
@@ -281,7 +285,7 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
       // What the accessor will hold, as its reader turns it into world space.
       std::array<double, 3> normal;
       for (std::size_t i = 0; i < 3; ++i)
-        normal[i] = stored(column->type, result[column->first + i]);
+        normal[i] = stored(*column, result[column->first + i], i);
       const Index vertex = m_soup.scene_vertices[vertex_of(own.corner)];
       normal = world_normal(m_soup.scene->instances[m_soup.scene->instance_of(vertex)], normal);
       std::copy(normal.begin(), normal.end(), result.begin() + std::ptrdiff_t(m_first_of_normal));

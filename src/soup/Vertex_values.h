@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SOUP_VERTEX_VALUES_H
 #define SELVEDGE_SOUP_VERTEX_VALUES_H
 
+#include "Gltf_scene.h"
+
 #include <selvedge/Triangle_soup.h>
 
 #include <array>
@@ -81,8 +83,9 @@ private:
     bool is_normalized;
     const unsigned char* rows;
     std::size_t row_size;
-    std::size_t place, target = s_none; // in the list of attributes, or in that of a morph target
-    std::size_t first = s_none;         // place of its first component among the numbers
+    std::size_t place, target = s_none;            // in the list of attributes, or in that of a morph target
+    std::size_t first = s_none;                    // place of its first component among the numbers
+    const Gltf_scene::Column* quantised = nullptr; // the accessor, if it can be quantised again
   };
 
   // Weights of joints, which are mixed, and in the same places the numbers of these joints, which are not.
@@ -114,7 +117,7 @@ private:
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   Numbers numbers_of(const Share& share) const;
   static double number(const Column& column, std::size_t row, std::size_t component);
-  static double stored(Attribute::Type type, double number);
+  static double stored(const Column& column, double number, std::size_t component);
   static void write(const Column& column, const Numbers& numbers, void* bytes);
   static void normalize(const Column& column, const Numbers& own, Numbers& numbers);
   template <class Row_of>

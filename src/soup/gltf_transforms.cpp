@@ -165,9 +165,13 @@ std::optional<std::array<double, 3>> local_position(const Matrix& to_world, cons
   return local;
 }
 
-std::optional<Point_3> nearest_world_position(const Matrix& to_world, const Point_3& point)
+std::optional<Point_3> nearest_world_position(const Matrix& to_world, const Gltf_scene::Column& positions,
+                                              const Point_3& point)
 {
-  const Point_3 result = world_position(to_world, inverse(to_world, point));
+  std::array<double, 3> local = inverse(to_world, point);
+  for (std::size_t k = 0; k < 3; ++k)
+    local[k] = positions.nearest_quantised(local[k], k);
+  const Point_3 result = world_position(to_world, local);
   return local_position(to_world, result) ? std::optional<Point_3>(result) : std::nullopt;
 }
 

@@ -49,8 +49,10 @@ Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Col
 /// found, for instance because the transform flattens.
 std::optional<std::array<double, 3>> local_position(const Gltf_scene::Matrix& to_world, const Point_3& point);
 
-/// Returns a point near another that has a `local_position`; none when none was found.
-std::optional<Point_3> nearest_world_position(const Gltf_scene::Matrix& to_world, const Point_3& point);
+/// Returns a point near another that has a `local_position`, as `positions` can hold it; none when none was
+/// found.
+std::optional<Point_3> nearest_world_position(const Gltf_scene::Matrix& to_world,
+                                              const Gltf_scene::Column& positions, const Point_3& point);
 
 } // namespace selvedge
 

@@ -10,6 +10,8 @@
 #include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/prepare.h>
+#include <selvedge/simplify.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -448,6 +450,29 @@ Json accessors_of(const Json& json)
   return result;
 }
 
+// Reduces a sheet such that vertices get new places. Expects that no column has become one of floats.
+void expect_new_places_held(const Document_of_sheet& document)
+{
+  Simplify_options options;
+  options.ratio = 0.3;
+  options.placement = Placement::optimal;
+  const Simplified_soup reduced = simplify_soup(prepare(read(document).soup), options);
+  EXPECT_GT(reduced.placed_vertices, 20u);
+  const Temporary_folder folder;
+  for (const auto& [note, count] : write_mesh(folder / "m.glb", reduced.soup))
+    EXPECT_EQ(note.find("floats"), std::string::npos) << note;
+  const Triangle_soup again = read_mesh(folder / "m.glb").soup;
+  EXPECT_EQ(std::set<Point_3>(again.points.begin(), again.points.end()),
+            std::set<Point_3>(reduced.soup.points.begin(), reduced.soup.points.end()));
+  EXPECT_EQ(std::set(again.uvs.values.begin(), again.uvs.values.end()),
+            std::set(reduced.soup.uvs.values.begin(), reduced.soup.uvs.values.end()));
+}
+
+TEST(Gltf_quantised, HasNewPlacesInItsWholeNumbers)
+{
+  expect_new_places_held(quantised_sheet());
+}
+
 TEST(Gltf_quantised, IsReadAsFloatsOfTheSameValues)
 {
   const Document_of_sheet document = quantised_sheet();
@@ -855,6 +880,12 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes.begin()->first.find("attributes that Draco holds as floats"), 0u);
   EXPECT_EQ(notes.begin()->second, 1u);
+}
+
+// Draco and whole numbers hold new places, texture coordinates and displacements in as few bytes as old ones.
+TEST(Gltf_draco, HasNewPlacesInTheStepsOfItsQuantisation)
+{
+  expect_new_places_held(draco_sheet(true, true));
 }
 
 TEST(Gltf_draco, HasNewNormalsInTheBoxOfItsQuantisation)
