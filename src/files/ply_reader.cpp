@@ -40,6 +40,7 @@ public:
     m_builder.soup().header_comments = std::move(m_header.comments);
     if (m_header.unknown_lines > 0)
       m_builder.ignore("lines of the header that PLY does not know", m_header.unknown_lines);
+    check_elements();
     if (m_header.format == "ascii")
       read_body(Ply_text_values(m_text, is_row_a_line()));
     else
@@ -48,6 +49,25 @@ public:
   }
 
 private:
+  /// Refuses a header without vertices or faces.
+  void check_elements() const
+  {
+    const auto has = [this](const auto& is_wanted) {
+      return std::any_of(m_header.elements.begin(), m_header.elements.end(), is_wanted);
+    };
+    if (!has([](const Element& element) { return element.name == "vertex"; }))
+      m_text.fail("the header announces no element 'vertex'; export the file as a mesh");
+    if (has(is_of_faces))
+      return;
+    const std::string announces = "the header announces no element 'face'";
+    if (has([](const Element& element) { return find_list(element) != nullptr; }))
+      m_text.fail(announces + ", whose list of vertices it has; write 'element face' and the number of faces "
+                              "above this list");
+    m_text.fail(announces + "; export the file as a mesh");
+  }
+
+  static bool is_of_faces(const Element& element) { return element.name == "face" || is_of_strips(element); }
+
   /// Returns whether the body has a line for each row, as most programs write it. Some write values there
   /// that their header does not announce.
   bool is_row_a_line() const
@@ -81,7 +101,7 @@ private:
       if (element.name == "vertex" && !has_vertices) {
         read_vertices(values, element);
         has_vertices = true;
-      } else if ((element.name == "face" || is_of_strips(element)) && faces == nullptr) {
+      } else if (is_of_faces(element) && faces == nullptr) {
         faces = &element;
         faces_begin = values;
         has_faces = has_vertices;
@@ -94,10 +114,6 @@ private:
         skip_element(values, element);
       }
     }
-    if (!has_vertices)
-      values.fail("the header announces no element 'vertex'; export the file as a mesh");
-    if (faces == nullptr)
-      values.fail("the header announces no element 'face'; export the file as a mesh");
     if (!has_faces)
       read_faces(*faces_begin, *faces);
   }
@@ -112,6 +128,15 @@ private:
     if (least != 0 && element.count > values.remaining() / least)
       values.fail("the header announces " + std::to_string(element.count) + " elements " +
                   in_quotes(element.name) + ", which the file cannot hold; it is damaged or cut short");
+  }
+
+  template <class Values>
+  static void check_row(Values& values, const Element& element, std::uint64_t row)
+  {
+    if (values.at_end())
+      values.fail("the file ends after " + std::to_string(row) + " of the " + std::to_string(element.count) +
+                  " elements " + in_quotes(element.name) +
+                  " that the header announces; it is cut short, copy or export it again");
   }
 
   template <class Values>
@@ -140,6 +165,7 @@ private:
     Cancellation_poll poll;
     for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       poll();
+      check_row(values, element, i);
       for (const Property& property : element.properties)
         skip_property(values, property);
     }
@@ -258,6 +284,7 @@ private:
     const auto fail = [&values](const std::string& message) { values.fail(message); };
     soup.points.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      check_row(values, element, i);
       for (std::size_t p = 0; p < targets.size(); ++p)
         read_property(values, element.properties[p], targets[p]);
       m_builder.add_point(position[0], position[1], position[2], 0, fail);
@@ -313,7 +340,8 @@ private:
   template <class Values>
   void read_strips(Values& values, const Element& element, const Property& list)
   {
-    for (std::uint64_t i = 0; i < element.count; ++i)
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      check_row(values, element, i);
       for (const Property& property : element.properties) {
         if (&property != &list) {
           skip_property(values, property);
@@ -336,6 +364,7 @@ private:
           before = std::exchange(last, corner);
         }
       }
+    }
   }
 
   template <class Values>
@@ -349,6 +378,7 @@ private:
     std::vector<Index> corners, uv_corners;
     std::vector<double> uvs;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      check_row(values, element, i);
       for (std::size_t p = 0; p < targets.size(); ++p) {
         const Property& property = element.properties[p];
         if (&property == &list)

@@ -35,6 +35,7 @@ public:
 
   static std::size_t least_bytes(Attribute::Type type) { return ply_size_of(type); }
   std::size_t remaining() const { return m_data.remaining(); }
+  bool at_end() const { return m_data.remaining() == 0; }
 
   double real(Attribute::Type type)
   {
@@ -105,6 +106,13 @@ public:
 
   static std::size_t least_bytes(Attribute::Type) { return 2; }
   std::size_t remaining() const { return m_text.remaining() + 1; } // the last value needs no blank after it
+
+  /// Passes blanks and line ends, and returns whether there are no more values.
+  bool at_end()
+  {
+    m_text.skip_space();
+    return m_text.at_end();
+  }
 
   double real(Attribute::Type)
   {

@@ -305,7 +305,12 @@ const std::vector<Entry>& corpus()
        ply_header("binary_little_endian", "1", "1") + std::string(12, '\0') + "\3\0\0"s,
        ": a list 'vertex_indices' has a length of 3, which the file cannot hold"},
       {"PlyAsciiCutShort", ply, ply_header("ascii", "3", "2") + ply_points + "3 0 1 2\n",
-       "the line ends where"},
+       ":14: the file ends after 1 of the 2 elements 'face' that the header announces; it is cut short"},
+      {"PlyAsciiCutShortInVertices", ply, ply_header("ascii", "4", "1") + ply_points + std::string(9, '\n'),
+       "the file ends after 3 of the 4 elements 'vertex'"},
+      {"PlyBinaryCutShortInFaces", ply,
+       ply_header("binary_little_endian", "1", "2") + std::string(12, '\0') + '\3' + std::string(12, '\0'),
+       ": the file ends after 1 of the 2 elements 'face'"},
       {"PlyHeaderCutShort", ply, "ply\nformat ascii 1.0\nelement vertex 3\n",
        ":4: the file ends within its header"},
       {"PlyNoFormat", ply, "ply\nelement vertex 0\nend_header\n", "the header names no format"},
@@ -326,7 +331,12 @@ const std::vector<Entry>& corpus()
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
        "z\nend_header\n" +
            ply_points,
-       "no element 'face'"},
+       "no element 'face'; export the file as a mesh"},
+      {"PlyListWithoutFaces", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "property list uchar int vertex_indices\nend_header\n" +
+           ply_points + "3 0 1 2\n",
+       "no element 'face', whose list of vertices it has; write 'element face'"},
       {"PlyNoVertices", ply,
        "ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n",
        "no element 'vertex'"},
