@@ -215,8 +215,8 @@ struct Read_options
 ///   carried when all vertices have them in the same form. In primitives without indices, vertices that agree
 ///   in every attribute become one. Buffers are in the file, data addresses, or files beside it. Of levels of
 ///   detail (MSFT_lod) in nodes one is read, and the others are left out. What EXT_meshopt_compression,
-///   KHR_draco_mesh_compression (2.2) and KHR_mesh_quantization pack is decoded. Refused: other required
-///   extensions.
+///   KHR_draco_mesh_compression (2.2) and KHR_mesh_quantization pack is decoded. KHR_meshopt_compression is
+///   passed over where the file has the same data uncompressed. Refused: other required extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
 /// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;

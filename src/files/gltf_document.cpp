@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 // Reads glTF and GLB up to the transforms of the nodes, and refuses documents that are not valid or not
 // supported.
@@ -28,6 +27,9 @@ using Json = Gltf_scene::Json;
 using Matrix = Gltf_scene::Matrix;
 
 constexpr const char* s_embedded_buffer = "glb-buffer";
+
+// The successor of EXT_meshopt_compression; what it packs is encoded in other ways, too.
+constexpr const char* s_next_meshopt_extension = "KHR_meshopt_compression";
 
 /// The parts that a file consists of.
 struct Chunks
@@ -92,16 +94,11 @@ bool is_understood(const std::string& extension)
 
 void refuse_extensions(const Gltf_document& document)
 {
-  const std::map<std::string, std::string> refused = {
-      {"KHR_meshopt_compression",
-       "its buffers are compressed with KHR_meshopt_compression; export it without compression"}};
   for (const char* list : {"extensionsRequired", "extensionsUsed"})
     for (const Json& extension : member(document.json, list)) {
       if (!extension.is_string())
         document.fail(std::string(list) + " holds something that is no name; export the file again");
       const std::string name = extension;
-      if (const auto found = refused.find(name); found != refused.end())
-        document.fail(found->second);
       if (const std::string library = missing_decoder(name); !library.empty())
         document.fail("it is compressed with " + name + ", and this program was built without " + library +
                       ", which decodes that; export it without compression");
@@ -109,6 +106,36 @@ void refuse_extensions(const Gltf_document& document)
           !is_apart_from_meshes(name))
         document.fail("it requires the extension " + name + ", which is not known here; export it without");
     }
+}
+
+/// Removes KHR_meshopt_compression where the file has the same data uncompressed, too, and refuses it
+/// elsewhere.
+void take_uncompressed_views(Gltf_document& document, bool has_embedded_buffer)
+{
+  Json& json = document.json;
+  std::size_t views = 0;
+  bool is_all_there = true;
+  for (const char* list : {"bufferViews", "buffers"}) {
+    if (!member(json, list).is_array() || member(json, list).empty())
+      continue;
+    Json& parts = json[list];
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const bool is_named = find_extension(parts[i], s_next_meshopt_extension) != nullptr;
+      const bool is_view = list == std::string_view("bufferViews");
+      views += is_named && is_view;
+      is_all_there &=
+          is_view || (i == 0 && has_embedded_buffer) || (parts[i].is_object() && parts[i].contains("uri"));
+      remove_extension_of(parts[i], s_next_meshopt_extension);
+    }
+  }
+  const Json& required = member(json, "extensionsRequired");
+  if (std::find(required.begin(), required.end(), s_next_meshopt_extension) != required.end() ||
+      (views > 0 && !is_all_there))
+    document.fail("its buffers are compressed with KHR_meshopt_compression; export it without compression");
+  if (views > 0)
+    document.remarks["buffer views read from uncompressed data beside KHR_meshopt_compression, which glTF "
+                     "output does not have"] += views;
+  remove_extension(json, s_next_meshopt_extension);
 }
 
 /// What tinygltf may open: the chunk of a GLB, and files beside the document.
@@ -403,6 +430,7 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
   document.name = name;
   const Chunks chunks = format == Mesh_format::glb ? split(contents, document) : Chunks{contents, {}};
   parse(chunks.json, document);
+  take_uncompressed_views(document, chunks.embedded.has_value());
   refuse_extensions(document);
   choose_level(document, level);
   load(chunks.embedded, folder, document);

@@ -225,11 +225,9 @@ TEST(Gltf, VerticesWithoutIndicesAreOneWhereTheyAgree)
 
 TEST(Gltf, RefusesWhatItCannotRead)
 {
-  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    Document document = one_triangle();
-    document.json[list] = {"KHR_meshopt_compression"};
-    expect_refused(document, "KHR_meshopt_compression");
-  }
+  Document packed = one_triangle();
+  packed.json["extensionsRequired"] = {"KHR_meshopt_compression"};
+  expect_refused(packed, "KHR_meshopt_compression");
   Document unknown = one_triangle();
   unknown.json["extensionsUsed"] = {"ACME_unknown"};
   EXPECT_NO_THROW(read_glb(unknown));
@@ -237,6 +235,31 @@ TEST(Gltf, RefusesWhatItCannotRead)
   EXPECT_NO_THROW(read_glb(unknown));
   unknown.json["extensionsRequired"] = {"ACME_unknown"};
   expect_refused(unknown, "ACME_unknown");
+}
+
+TEST(Gltf, WhatIsPackedInAnotherWayIsReadFromBesideIt)
+{
+  const char* const name = "KHR_meshopt_compression";
+  Document document = one_triangle();
+  const std::vector<Index_triple> triangles = read_glb(document).soup.triangles;
+  document.json["extensionsUsed"] = {name};
+  document.json["bufferViews"][0]["extensions"][name] = {{"buffer", 1},     {"byteOffset", 0},
+                                                         {"byteLength", 8}, {"byteStride", 4},
+                                                         {"count", 3},      {"mode", "ATTRIBUTES"}};
+  const Mesh_file file = read_glb(document);
+  EXPECT_EQ(file.soup.triangles, triangles);
+  EXPECT_TRUE(std::any_of(file.notes.remarks.begin(), file.notes.remarks.end(),
+                          [&](const auto& remark) { return remark.first.find(name) != std::string::npos; }));
+  const Temporary_folder folder;
+  write_mesh(folder / "a.glb", file.soup);
+  EXPECT_EQ(contents(folder / "a.glb").find(name), std::string::npos) << "refers to bytes that are gone";
+  document.json["buffers"] = {{{"byteLength", document.bytes.size()}}}; // stands for what is to be decoded
+  try {
+    read_mesh(document.json.dump(), Mesh_format::gltf, "dummy");
+    ADD_FAILURE() << "nothing is uncompressed";
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+  }
 }
 
 TEST(Gltf, RefusesWhatIsBroken)
