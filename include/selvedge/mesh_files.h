@@ -91,12 +91,13 @@ namespace selvedge {
 /// reading them gives the same numbers; of a vertex at which fans of faces meet, Draco may make one for each
 /// fan. Exceptions: a mesh that stands in several places (nodes or instances) becomes several, one for all
 /// places in which it has the same triangles of the same vertices, with the normals of the first of them;
-/// instances that have come to differ become nodes, without the extension's own attributes; accessors of
-/// triangles are written without gaps, and in full unless the file has nothing but sparse values for them;
-/// those that shared a buffer view share one again, one behind the other or, if one level of detail is
-/// written, interleaved as they were; buffers become one, and bytes that nothing can refer to go, as do
-/// accessors and buffer views at the end of their lists. Primitives of points or lines, and meshes outside
-/// the scene, stay as they are. Those without a triangle left are removed.
+/// images in data addresses go into the buffer of a GLB file; instances that have come to differ become
+/// nodes, without the extension's own attributes; accessors of triangles are written without gaps, and in
+/// full unless the file has nothing but sparse values for them; those that shared a buffer view share one
+/// again, one behind the other or, if one level of detail is written, interleaved as they were; buffers
+/// become one, and bytes that nothing can refer to go, as do accessors and buffer views at the end of their
+/// lists. Primitives of points or lines, and meshes outside the scene, stay as they are. Those without a
+/// triangle left are removed.
 ///
 /// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face has
 /// several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name the

@@ -4,6 +4,7 @@
 #include "files/Gltf_output.h"
 
 #include "files/gltf_decoding.h"
+#include "files/gltf_document.h"
 #include "files/gltf_encoding.h"
 #include "files/gltf_quantization.h"
 
@@ -152,6 +153,8 @@ void Gltf_output::write(Byte_writer& out, Mesh_format format)
   if (!m_compressed_primitives.empty())
     add_extension(document, draco_extension, true);
   remove_needless_quantization(document);
+  if (format == Mesh_format::glb)
+    embed_images();
   put_views();
   fill_free();
   std::string bytes = put_buffer();
@@ -299,6 +302,35 @@ std::size_t Gltf_output::put_view(std::string bytes, Json view)
   m_views.resize(views.size());
   m_views[number] = std::move(bytes);
   return number;
+}
+
+// Puts images that are in data addresses into buffer views, as GLB files have them.
+void Gltf_output::embed_images()
+{
+  const auto images = document.find("images");
+  if (images == document.end() || !images->is_array())
+    return;
+  for (std::size_t i = 0; i < images->size(); ++i) {
+    const Json& image = document["images"][i];
+    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string())
+      continue;
+    const std::string& address = image["uri"].get_ref<const std::string&>();
+    std::vector<unsigned char> bytes;
+    std::string type;
+    const bool is_decoded = tinygltf::IsDataURI(address) &&
+                            tinygltf::DecodeDataURI(&bytes, type, address, 0, false) &&
+                            type.compare(0, 6, "image/") == 0;
+    std::string data(bytes.begin(), bytes.end());
+    // tinygltf stops at what is no digit.
+    if (!is_decoded || "data:" + type + ";base64," + internal::base64(data) != address)
+      continue;
+    const std::size_t view = put_bytes(std::move(data));
+    Json& embedded = document["images"][i]; // the document may have got a new key
+    embedded.erase("uri");
+    embedded["bufferView"] = view;
+    if (!embedded.contains("mimeType"))
+      embedded["mimeType"] = std::move(type);
+  }
 }
 
 // Removes the free accessors and buffer views at the end, and puts the smallest valid ones where others have

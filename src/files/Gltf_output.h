@@ -82,6 +82,7 @@ private:
   void interleave();
   void put_views();
   std::size_t put_view(std::string bytes, Json view = Json::object());
+  void embed_images();
   void fill_free();
   std::string put_buffer();
   std::optional<Gltf_scene::Meshopt_view> compressed_view(std::size_t view) const;

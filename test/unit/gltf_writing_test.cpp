@@ -10,6 +10,7 @@
 #include "soup/transforms_of_vertices.h"
 #include <selvedge/Error.h>
 #include <selvedge/gltf_poses.h>
+#include <selvedge/internal/base64.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 
@@ -249,6 +250,44 @@ TEST(Gltf, TextFormHoldsTheSame)
   EXPECT_EQ(again.soup.triangles, file.soup.triangles);
   write_mesh(folder / "a.glb", again.soup);
   expect_everything_kept(from_glb(contents(folder / "a.glb")), before, false);
+}
+
+TEST(Gltf, ImagesInDataAddressesGoIntoTheBufferOfGlb)
+{
+  const Temporary_folder folder;
+  Document before = everything();
+  const Json inside = before.json["images"][0];
+  const Json& view = before.json["bufferViews"][inside["bufferView"].get<std::size_t>()];
+  const std::string png = before.bytes.substr(view["byteOffset"], view["byteLength"]);
+  const std::string address = "data:image/png;base64," + internal::base64(png);
+  Json& images = before.json["images"];
+  images.push_back({{"uri", address}, {"name", "data"}});
+  images.push_back({{"uri", address + "?"}});
+  images.push_back({{"uri", "data:application/octet-stream;base64," + internal::base64(png)}});
+  images.push_back({{"uri", "data:image/png;base64,"}});
+  const Triangle_soup soup = read_glb(before).soup;
+  write_mesh(folder / "a.glb", soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  const Json& embedded = after.json["images"][2];
+  EXPECT_EQ(embedded["name"], "data");
+  EXPECT_EQ(embedded["mimeType"], "image/png");
+  EXPECT_FALSE(embedded.contains("uri"));
+  const Json& its_view = after.json["bufferViews"].at(embedded["bufferView"].get<std::size_t>());
+  EXPECT_EQ(after.bytes.substr(its_view["byteOffset"], its_view["byteLength"]), png);
+  for (const std::size_t kept : {1, 3, 4, 5})
+    EXPECT_EQ(after.json["images"][kept], images[kept]);
+  write_mesh(folder / "a.gltf", soup);
+  EXPECT_EQ(Json::parse(contents(folder / "a.gltf"))["images"][2], images[2]);
+  // Levels have it in common, and it stays where it is.
+  write_levels_of_detail(folder / "levels.glb",
+                         {soup, reduce(soup, 0.4, Placement::vertices, Instances::shared).soup});
+  const std::string levels = contents(folder / "levels.glb");
+  const std::size_t first = levels.find(png.substr(0, 40)),
+                    second = levels.find(png.substr(0, 40), first + 1);
+  EXPECT_NE(second, std::string::npos);
+  EXPECT_EQ(levels.find(png.substr(0, 40), second + 1), std::string::npos);
+  write_mesh(folder / "b.glb", read_mesh(folder / "a.glb").soup);
+  EXPECT_EQ(contents(folder / "b.glb"), contents(folder / "a.glb"));
 }
 
 // What the extension says about expressions names meshes, nodes and morph targets by their numbers.
