@@ -756,7 +756,8 @@ private:
       for (Index row = 0; row < m_scene->blocks[m_scene->instances[i].block].size; ++row) {
         m_poll();
         for (std::size_t k = 0; k < colours.components; ++k)
-          append_number(colours.rows, k < columns[i]->components ? float(normalised(*columns[i], row, k)) : 1.f);
+          append_number(colours.rows,
+                        k < columns[i]->components ? float(normalised(*columns[i], row, k)) : 1.f);
       }
     add_colours(colours);
     return true;

@@ -371,6 +371,16 @@ void Vertex_values::mix_influences(const Row_of& row_of, const Shares& shares, c
   });
 }
 
+// Sets joints that have no weight to 0, as glTF asks.
+void Vertex_values::clear_joints_without_weight(const Gltf_scene::Column& weights, Gltf_scene::Column& joints,
+                                                std::size_t row)
+{
+  const std::size_t size = component_size(joints.component_type);
+  for (std::size_t i = 0; i < joints.components; ++i)
+    if (component(weights, row, i) == 0)
+      joints.rows.replace(row * joints.row_size + i * size, size, size, '\0');
+}
+
 // Overwrites the rows of these vertices in a copy of the scene. A block that several nodes show becomes one
 // of each node first.
 void Vertex_values::put_in_scene(const Of_vertices& of_vertex, Triangle_soup& result) const
@@ -400,11 +410,14 @@ void Vertex_values::put_in_scene(const Of_vertices& of_vertex, Triangle_soup& re
         append_little_endian(bytes, static_cast<float>(coordinate));
       positions.rows.replace(row * positions.row_size, positions.row_size, bytes);
     }
-    for (const Column& column : m_of_blocks[m_soup.scene->instances[number].block].columns) {
+    const Table& table = m_of_blocks[m_soup.scene->instances[number].block];
+    for (const Column& column : table.columns) {
       Gltf_scene::Column& written = column.target == s_none ? block.attributes[column.place]
                                                             : block.targets[column.target][column.place];
       write(column, *of_vertex[v], written.rows.data() + row * written.row_size);
     }
+    for (const auto& [weights, joints] : table.influences)
+      clear_joints_without_weight(block.attributes[weights.place], block.attributes[joints.place], row);
   }
   result.scene = scene;
 }

@@ -127,6 +127,8 @@ private:
   static void put(const Of_vertices& of_vertex, std::size_t first, const Triangle_soup& result,
                   Corner_values<dimension>& values);
   void put_in_scene(const Of_vertices& of_vertex, Triangle_soup& result) const;
+  static void clear_joints_without_weight(const Gltf_scene::Column& weights, Gltf_scene::Column& joints,
+                                          std::size_t row);
 
   const Triangle_soup& m_soup;
   std::size_t m_first_of_normal = 0;

@@ -500,6 +500,54 @@ TEST(Gltf, ValuesAtNewPlacesAreInterpolated)
   expect_interpolated<std::uint16_t>(5123);
 }
 
+// The weight of a joint that few vertices have is lost where it is mixed with others and rounded.
+TEST(Gltf, JointsThatLoseTheirWeightAreZero)
+{
+  const Temporary_folder folder;
+  Document before = waves<std::uint8_t>(5121);
+  Json& attributes = before.json["meshes"][0]["primitives"][0]["attributes"];
+  const auto old_joints = rows_of(before, attributes["JOINTS_0"]),
+             old_weights = rows_of(before, attributes["WEIGHTS_0"]),
+             known = rows_of(before, attributes["POSITION"]);
+  const auto is_rare = [](std::size_t i) { return i % 7 == 0; };
+  attributes["JOINTS_0"] =
+      add_rows<std::uint8_t>(before, known.size(), 4, 5121, [&](std::size_t i, std::size_t k) {
+        return k == 2 && is_rare(i) ? 9 : k == 3 ? 5 : int(old_joints[i][k]);
+      });
+  attributes["WEIGHTS_0"] = add_rows<std::uint8_t>(
+      before, known.size(), 4, 5121,
+      [&](std::size_t i, std::size_t k) {
+        const int weight = static_cast<unsigned char>(old_weights[i][k]);
+        const std::size_t larger = static_cast<unsigned char>(old_weights[i][0]) > 127 ? 0 : 1;
+        return is_rare(i) && k == larger ? weight - 1 : is_rare(i) && k == 2 ? 1 : weight;
+      },
+      true);
+  const auto joints_before = rows_of(before, attributes["JOINTS_0"]),
+             weights_before = rows_of(before, attributes["WEIGHTS_0"]);
+  write_mesh(folder / "a.glb", reduce(read_glb(before).soup, 0.3, Placement::optimal).soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  const Json& now = after.json["meshes"][0]["primitives"][0]["attributes"];
+  const auto points = rows_of(after, now["POSITION"]), joints = rows_of(after, now["JOINTS_0"]),
+             weights = rows_of(after, now["WEIGHTS_0"]);
+  std::size_t kept = 0, placed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto found = std::find(known.begin(), known.end(), points[i]);
+    if (found != known.end()) {
+      const auto row = std::size_t(found - known.begin());
+      EXPECT_EQ(joints[i], joints_before[row]) << "5 has no weight in the file either";
+      EXPECT_EQ(weights[i], weights_before[row]);
+      ++kept;
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_TRUE(weights[i][k] != 0 || joints[i][k] == 0)
+          << "vertex " << i << ", joint " << int(joints[i][k]);
+    ++placed;
+  }
+  EXPECT_GT(kept, 10u);
+  EXPECT_GT(placed, 50u);
+}
+
 // In nodes that share a mesh, under transforms that round.
 TEST(Gltf, NewPlacesAreWrittenAsTheyWereJudged)
 {
