@@ -115,9 +115,10 @@ struct Simplified_soup
 ///    `Placement::optimal` this holds for all vertices but `placed_vertices`. Those have new positions, and
 ///    their texture coordinates, normals and attributes (floating point, or normalized integers) are those of
 ///    the surface before each collapse, at its point nearest to the new position, by barycentric coordinates
-///    on the same side of all lines. Normals get the length 1. Other integers, indices of joints and their
-///    weights are those of the end that was nearer. Groups, objects and materials are kept. Normals
-///    are made anew or fitted where `Prepare_options::normals` asks for it.
+///    on the same side of all lines, rounded to what a quantised glTF file can hold. Normals get the length 1.
+///    Other integers and the joints of a skin are those of the end that was nearer; its weights are mixed for
+///    these joints, with the sum 1. Groups, objects and materials are kept. Normals are made anew or fitted
+///    where `Prepare_options::normals` asks for it.
 /// 3. *Seams*: coincident borders of pieces are sewn before the reduction and separate after it, and they
 ///    coincide at every vertex. Texture seams and borders between groups are kept in the same way.
 /// 4. *Texture*: no triangle of the texture turns over.
