@@ -170,7 +170,8 @@ Verdict judge_file(const World& world, const World_run& run)
     share_split_vertices(expected);
   }
   // Readers connect faces that have vertices of their own, as those of STL.
-  const bool may_be_connected = have_faces_own_vertices(expected, count_of_used_vertices(expected));
+  const bool may_be_connected =
+      have_faces_own_vertices(expected.triangles.size(), count_of_used_vertices(expected));
   if ((!may_be_connected && file.triangles != expected.triangles) ||
       file.points.size() != expected.points.size() ||
       !std::equal(file.points.begin(), file.points.end(), expected.points.begin(), has_same_bits))
