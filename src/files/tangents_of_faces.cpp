@@ -48,8 +48,9 @@ std::size_t join_tangents_of_faces(Gltf_scene::Block& block)
     rows_alike[std::move(key)].push_back(row);
   }
   std::size_t changed = 0;
-  for (const auto& [key, rows] : rows_alike) {
+  for (const auto& alike : rows_alike) {
     poll();
+    const std::vector<Index>& rows = alike.second;
     const auto is_as_first = [&](Index row) { return tangents->row(row) == tangents->row(rows.front()); };
     if (std::all_of(rows.begin(), rows.end(), is_as_first))
       continue;
