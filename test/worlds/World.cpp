@@ -327,6 +327,8 @@ std::set<std::string> options_used(const World& world)
     options.insert("polygons");
   if (tangents_of(world.soup))
     options.insert("tangents");
+  if (world.scene.find(", quantised") != std::string::npos)
+    options.insert("quantised");
   return options;
 }
 

@@ -78,9 +78,10 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
 {
   std::vector<std::string> result;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    std::string& bytes = result.emplace_back();
-    const auto add = [&bytes](const void* data, std::size_t size) {
-      bytes.append(static_cast<const char*>(data), size);
+    std::array<std::string, 3> corners;
+    std::size_t k = 0;
+    const auto add = [&](const void* data, std::size_t size) {
+      corners[k].append(static_cast<const char*>(data), size);
     };
     const auto add_numbers = [&](const auto& numbers) { // zeros of either sign are one
       for (double number : numbers) {
@@ -88,7 +89,7 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
         add(&number, sizeof number);
       }
     };
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (; k < 3; ++k) {
       const Index v = soup.triangles[t][k];
       for (int axis = 0; axis < 3; ++axis) {
         const double coordinate = soup.points[v][axis];
@@ -102,6 +103,9 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
         if (with_tangents || attribute.name != "TANGENT")
           add(attribute.rows.data() + v * row_size(attribute), row_size(attribute));
     }
+    // Draco begins with another corner.
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.push_back(corners[0] + corners[1] + corners[2]);
   }
   std::sort(result.begin(), result.end());
   return result;

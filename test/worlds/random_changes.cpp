@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "random_changes.h"
+#include "soup/Gltf_scene.h"
+#include "soup/gltf_transforms.h"
 #include "soup/selection.h"
 #include "support/soups.h"
 
@@ -12,8 +14,11 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace selvedge::test {
@@ -263,7 +268,51 @@ void shade(Triangle_soup& soup, Random& random)
   }
 }
 
+// Quantises a column as Draco does.
+void put_on_steps(Gltf_scene::Column& column, Index rows, int bits)
+{
+  Gltf_scene::Compression::Quantisation quantisation;
+  quantisation.bits = bits;
+  for (std::size_t k = 0; k < column.components; ++k) {
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (Index row = 0; row < rows; ++row) {
+      low = std::min(low, float(component(column, row, k)));
+      high = std::max(high, float(component(column, row, k)));
+    }
+    quantisation.origin.push_back(low);
+    quantisation.range = std::max(quantisation.range, high - low);
+  }
+  column.compression->quantisation = quantisation;
+  std::string bytes;
+  for (Index row = 0; row < rows; ++row)
+    for (std::size_t k = 0; k < column.components; ++k)
+      append_little_endian(bytes, float(column.nearest_quantised(component(column, row, k), k)));
+  column.rows = bytes;
+}
+
 } // namespace
+
+void quantise(Triangle_soup& soup, Random& random)
+{
+  const auto scene = std::make_shared<Gltf_scene>(*soup.scene);
+  for (Gltf_scene::Block& block : scene->blocks)
+    for (Gltf_scene::Column& column : block.attributes) {
+      column.compression.emplace();
+      if (column.name == "POSITION" || column.name == "TEXCOORD_0")
+        put_on_steps(column, block.size, random.one_of({5, 9, 14}));
+    }
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    const Gltf_scene::Instance& instance = scene->instances[scene->instance_of(soup.scene_vertices[v])];
+    soup.points[v] = world_position(instance.to_world, scene->blocks[instance.block].attributes.front(),
+                                    soup.scene_vertices[v] - instance.first);
+  }
+  Index number = 0; // of a texture coordinate
+  for (const Gltf_scene::Instance& instance : scene->instances)
+    for (const Gltf_scene::Column& column : scene->blocks[instance.block].attributes)
+      for (Index row = 0; column.name == "TEXCOORD_0" && row < scene->blocks[instance.block].size; ++row)
+        soup.uvs.values[number++] = {component(column, row, 0), 1 - component(column, row, 1)};
+  soup.scene = scene;
+}
 
 void add_tangents_as_colours(Triangle_soup& soup, Random& random)
 {

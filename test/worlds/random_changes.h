@@ -41,6 +41,10 @@ void add_poles(Triangle_soup& soup, Random& random);
 /// have vertices of their own, on the other side of a mirrored texture.
 void add_tangents_as_colours(Triangle_soup& soup, Random& random);
 
+/// Puts the vertices of a glTF scene, and their texture coordinates, on the steps of a quantisation by Draco,
+/// as which the scene is written.
+void quantise(Triangle_soup& soup, Random& random);
+
 /// An attribute of triangles, of one byte each, as a PLY file holds it: the same in two regions, or anyhow.
 void number_triangles(Triangle_soup& soup, Random& random);
 

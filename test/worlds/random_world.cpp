@@ -604,6 +604,11 @@ World random_world(std::uint64_t seed)
                       has_tangents ? &of_tangents : nullptr);
       if (has_tangents)
         world.scene += ", with tangents";
+      if (Random of_steps(seed + 10); of_steps.one_in(3)) {
+        quantise(soup, of_steps);
+        soup = through_file(soup, "mesh.glb");
+        world.scene += ", quantised";
+      }
       if (is_shared)
         world.scene += ", meshes in several places";
       world.input_format = Mesh_format::gltf;
