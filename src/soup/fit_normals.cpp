@@ -9,19 +9,15 @@
 #include "near_normals.h"
 #include "number_positions.h"
 #include "selection.h"
+#include "surface_fit.h"
 #include "surfaces_of.h"
 #include "triangle_normals.h"
-
-#include <selvedge/Cancellation_scope.h>
-
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -32,7 +28,6 @@
 namespace selvedge {
 namespace {
 
-using internal::cross;
 using internal::dot;
 using shading::cosines;
 using shading::normal_at;
@@ -41,6 +36,8 @@ using shading::stored;
 using shading::unit;
 using shading::unit_normal;
 using shading::Vector;
+using surface_fit::area;
+using surface_fit::scaled;
 
 // The weight of the normals as they are, relative to that of the samples around. It decides where there are
 // few samples.
@@ -62,9 +59,6 @@ constexpr double s_share_left_of_split = 0.5;
 // one shades faces as nothing did in the original.
 constexpr double s_cosine_of_border = 0.9397;
 
-// Where samples are in a triangle: quadratic functions are integrated exactly.
-constexpr std::array<double, 3> s_far = {1. / 6, 1. / 6, 2. / 3};
-
 class Normal_fit
 {
 public:
@@ -72,7 +66,7 @@ public:
              const std::vector<Index_triple>& corners, const Triangle_soup& original,
              const Corner_values<3>& normals, const std::vector<char>& stays)
       : m_result(result), m_triangles(triangles), m_original(original), m_normals(normals),
-        m_exponent(exponent_of(original)), m_is_left(original.triangles.size(), false)
+        m_exponent(surface_fit::exponent_of(original)), m_is_left(original.triangles.size(), false)
   {
     for (Index i = 0; i < triangles.size(); ++i) {
       const Index t = triangles[i];
@@ -103,24 +97,6 @@ private:
     double weight = 0;
   };
 
-  // What the samples on a triangle come to: the sums of the products of weights of its corners, and of
-  // normals by these weights.
-  struct Moments
-  {
-    std::array<std::array<double, 3>, 3> products{};
-    std::array<Vector, 3> normals{};
-  };
-
-  // The power of two that brings the coordinates to a size at which fourth powers of them are numbers.
-  static int exponent_of(const Triangle_soup& soup)
-  {
-    double largest = 0;
-    for (const Point_3& point : soup.points)
-      for (int axis = 0; axis < 3; ++axis)
-        largest = std::max(largest, std::abs(point[axis]));
-    return largest > 0 ? -std::ilogb(largest) : 0;
-  }
-
   static bool has_normals(const Corner_values<3>& normals, Index triangle)
   {
     return normals.of_triangle[triangle][0] != normals.missing;
@@ -137,27 +113,11 @@ private:
     return false;
   }
 
-  std::array<Vector, 3> scaled(const Triangle_soup& soup, Index triangle) const
-  {
-    std::array<Vector, 3> result;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        result[k][axis] = std::scalbn(soup.points[soup.triangles[triangle][k]][axis], m_exponent);
-    return result;
-  }
-
   // Returns a normal, or none where it is not finite.
   static Vector finite(const Vector& normal)
   {
     return std::all_of(normal.begin(), normal.end(), [](double x) { return std::isfinite(x); }) ? normal
                                                                                                 : Vector{};
-  }
-
-  static double area(const std::array<Vector, 3>& corners)
-  {
-    const Vector doubled =
-        cross(internal::difference(corners[1], corners[0]), internal::difference(corners[2], corners[0]));
-    return std::sqrt(dot(doubled, doubled)) / 2;
   }
 
   // Returns which of these positions are on a border: an edge of one triangle ends there.
@@ -247,11 +207,11 @@ private:
 
   void weigh_wedges()
   {
-    m_mass.assign(m_old.size(), 0);
+    m_inertia.assign(m_old.size(), 0);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
       if (has_normals(m_result.normals, i))
         for (const Index wedge : m_wedges[i])
-          m_mass[wedge] += area(scaled(m_result, i)) / 3;
+          m_inertia[wedge] += s_inertia * area(scaled(m_result, i, m_exponent)) / 3;
   }
 
   void take_samples()
@@ -262,28 +222,22 @@ private:
     std::vector<Index> numbers;
     for (Index i = 0; i < m_result.triangles.size(); ++i)
       if (m_fronts[i] != Vector{}) {
-        searched.push_back(scaled(m_result, i));
+        searched.push_back(scaled(m_result, i, m_exponent));
         of_searched.push_back(of_original[m_triangles[i]]);
         numbers.push_back(i);
       }
     const Triangle_finder finder(std::move(searched), of_searched);
     m_moments.resize(m_result.triangles.size());
-    // What threads have found is summed up in the order of the triangles.
-    constexpr std::size_t at_once = 16384;
-    std::vector<std::array<Sample, 3>> samples(std::min(at_once, m_original.triangles.size()));
-    for (std::size_t first = 0; first < m_original.triangles.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, m_original.triangles.size() - first);
-      const auto sample = [&](std::size_t j) {
-        const Index t = Index(first + j);
-        samples[j] = m_is_left[t] ? std::array<Sample, 3>{} : samples_of(t, finder, of_original[t]);
-      };
-      tbb::parallel_for(std::size_t(0), count, Cancellation_scope::inherited(sample));
-      Cancellation_scope::check();
-      for (std::size_t j = 0; j < count; ++j)
-        for (const Sample& found : samples[j])
-          if (found.nearest)
-            add(found, numbers[found.nearest->triangle]);
-    }
+    surface_fit::find_in_parallel(
+        m_original.triangles.size(),
+        [&](Index t) {
+          return m_is_left[t] ? std::array<Sample, 3>{} : samples_of(t, finder, of_original[t]);
+        },
+        [&](const std::array<Sample, 3>& samples) {
+          for (const Sample& sample : samples)
+            if (sample.nearest)
+              add(sample, numbers[sample.nearest->triangle]);
+        });
   }
 
   // Returns where the front of a triangle with such a normal points to.
@@ -299,20 +253,16 @@ private:
     std::array<Sample, 3> samples;
     if (!has_normals(m_normals, t))
       return samples;
-    const std::array<Vector, 3> corners = scaled(m_original, t);
+    const std::array<Vector, 3> corners = scaled(m_original, t, m_exponent);
     const double weight = area(corners) / 3;
     const int side = side_of(cosines(unit_normal(m_original, t), m_normals, t));
     std::array<Vector, 3> normals;
     for (std::size_t k = 0; k < 3; ++k)
       normals[k] = unit(finite(normal_at(m_normals, t, k)));
     for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
-      Vector place{}, normal{};
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          place[axis] += s_far[(k + j) % 3] * corners[k][axis];
-          normal[axis] += s_far[(k + j) % 3] * normals[k][axis];
-        }
-      const Vector shown = unit(normal);
+      const std::array<double, 3>& weights = surface_fit::s_sample_weights[j];
+      const Vector place = surface_fit::interpolated(corners, weights),
+                   shown = unit(surface_fit::interpolated(normals, weights));
       samples[j] = {finder.nearest(place, surface, direction(shown, side)), shown, weight};
     }
     return samples;
@@ -320,16 +270,8 @@ private:
 
   void add(const Sample& sample, Index i)
   {
-    if (m_sides[i] == 0 || !(m_sides[i] * dot(m_fronts[i], sample.normal) >= s_cosine_of_sample))
-      return;
-    Moments& moments = m_moments[i];
-    const std::array<double, 3>& weights = sample.nearest->weights;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t l = 0; l < 3; ++l)
-        moments.products[k][l] += sample.weight * weights[k] * weights[l];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        moments.normals[k][axis] += sample.weight * weights[k] * sample.normal[axis];
-    }
+    if (m_sides[i] != 0 && m_sides[i] * dot(m_fronts[i], sample.normal) >= s_cosine_of_sample)
+      m_moments[i].add(sample.nearest->weights, sample.normal, sample.weight);
   }
 
   bool is_near_on_border(std::size_t wedge, const Vector& fitted) const
@@ -361,95 +303,13 @@ private:
     return result;
   }
 
-  // Returns the product of the matrix of the least squares with a vector, in its free rows.
-  std::vector<double> times(const std::vector<double>& x) const
-  {
-    std::vector<double> result(x.size());
-    for (std::size_t w = 0; w < x.size(); ++w)
-      result[w] = s_inertia * m_mass[w] * x[w];
-    for (std::size_t i = 0; i < m_moments.size(); ++i)
-      if (m_sides[i] != 0)
-        for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t l = 0; l < 3; ++l)
-            result[m_wedges[i][k]] += m_moments[i].products[k][l] * x[m_wedges[i][l]];
-    for (std::size_t w = 0; w < x.size(); ++w)
-      if (m_is_fixed[w])
-        result[w] = 0;
-    return result;
-  }
-
-  // Solves the least squares by conjugate gradients, from the normals as they are.
-  std::vector<Vector> solution() const
-  {
-    const std::size_t count = m_old.size();
-    std::vector<double> diagonal(count);
-    for (std::size_t w = 0; w < count; ++w)
-      diagonal[w] = s_inertia * m_mass[w];
-    for (std::size_t i = 0; i < m_moments.size(); ++i)
-      if (m_sides[i] != 0)
-        for (std::size_t k = 0; k < 3; ++k)
-          diagonal[m_wedges[i][k]] += m_moments[i].products[k][k];
-    std::vector<Vector> result = m_old;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::vector<double> x(count), right(count);
-      for (std::size_t w = 0; w < count; ++w) {
-        x[w] = m_old[w][axis];
-        right[w] = s_inertia * m_mass[w] * x[w];
-      }
-      for (std::size_t i = 0; i < m_moments.size(); ++i)
-        if (m_sides[i] != 0)
-          for (std::size_t k = 0; k < 3; ++k)
-            right[m_wedges[i][k]] += m_moments[i].normals[k][axis];
-      improve(x, right, diagonal);
-      for (std::size_t w = 0; w < count; ++w)
-        result[w][axis] = x[w];
-    }
-    return result;
-  }
-
   std::vector<Vector> unit_solution() const
   {
-    std::vector<Vector> result = solution();
+    const surface_fit::Least_squares<3> fit(m_moments, m_wedges, m_is_fixed, m_inertia);
+    std::vector<Vector> result = fit.solution(m_old);
     for (Vector& normal : result)
       normal = unit(normal);
     return result;
-  }
-
-  void improve(std::vector<double>& x, const std::vector<double>& right,
-               const std::vector<double>& diagonal) const
-  {
-    constexpr int most_steps = 100;
-    constexpr double share_left = 1e-8; // of the squared residual
-    const std::size_t count = x.size();
-    std::vector<double> residual = times(x), direction(count), towards(count);
-    for (std::size_t w = 0; w < count; ++w)
-      residual[w] = m_is_fixed[w] ? 0 : right[w] - residual[w];
-    const auto precondition = [&] {
-      double sum = 0;
-      for (std::size_t w = 0; w < count; ++w) {
-        towards[w] = diagonal[w] > 0 ? residual[w] / diagonal[w] : 0;
-        sum += towards[w] * residual[w];
-      }
-      return sum;
-    };
-    double left = precondition();
-    const double enough = share_left * left;
-    direction = towards;
-    for (int step = 0; step < most_steps && left > enough; ++step) {
-      Cancellation_scope::check();
-      const std::vector<double> product = times(direction);
-      const double curvature = std::inner_product(direction.begin(), direction.end(), product.begin(), 0.0);
-      if (!(curvature > 0))
-        return;
-      const double length = left / curvature;
-      for (std::size_t w = 0; w < count; ++w) {
-        x[w] += length * direction[w];
-        residual[w] -= length * product[w];
-      }
-      const double before = std::exchange(left, precondition());
-      for (std::size_t w = 0; w < count; ++w)
-        direction[w] = towards[w] + left / before * direction[w];
-    }
   }
 
   // The cosine between a normal and the side of a triangle that it shades.
@@ -463,11 +323,11 @@ private:
     for (Index i = 0; i < m_wedges.size(); ++i) {
       if (m_sides[i] == 0)
         continue;
-      const Moments& moments = m_moments[i];
+      const surface_fit::Moments<3>& moments = m_moments[i];
       double error = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vector& normal = normals[m_wedges[i][k]];
-        error -= 2 * dot(moments.normals[k], normal);
+        error -= 2 * dot(moments.values[k], normal);
         for (std::size_t l = 0; l < 3; ++l) // samples have length 1, and their three weights add up to 1
           error += moments.products[k][l] * (1 + dot(normal, normals[m_wedges[i][l]]));
       }
@@ -530,7 +390,7 @@ private:
           m_border_normals.push_back(Vector(m_border_normals[w]));
         }
         m_wedges[i][k] = found->second;
-        const double weight = m_sides[i] * area(scaled(m_result, i));
+        const double weight = m_sides[i] * area(scaled(m_result, i, m_exponent));
         for (std::size_t axis = 0; axis < 3; ++axis)
           means[found->second][axis] += weight * m_fronts[i][axis];
       }
@@ -631,15 +491,15 @@ private:
   const Triangle_soup& m_original;
   const Corner_values<3>& m_normals; // of the corners of the original
   int m_exponent;
-  std::vector<char> m_is_left;          // by triangle of the original: it is in the result with its normals
-  std::vector<int> m_sides;             // by triangle of the result
-  std::vector<Vector> m_fronts;         // likewise
-  std::vector<Index_triple> m_wedges;   // likewise
-  std::vector<Moments> m_moments;       // likewise
-  std::vector<Vector> m_old;            // by wedge, of length 1
-  std::vector<char> m_is_fixed;         // by wedge
+  std::vector<char> m_is_left;        // by triangle of the original: it is in the result with its normals
+  std::vector<int> m_sides;           // by triangle of the result
+  std::vector<Vector> m_fronts;       // likewise
+  std::vector<Index_triple> m_wedges; // likewise
+  std::vector<surface_fit::Moments<3>> m_moments; // likewise
+  std::vector<Vector> m_old;                      // by wedge, of length 1
+  std::vector<char> m_is_fixed;                   // by wedge
   std::vector<Vector> m_border_normals; // by wedge: the old one if on a border, of parts that of the whole
-  std::vector<double> m_mass;           // by wedge: the area around it
+  std::vector<double> m_inertia;        // by wedge: its weight as it is
   std::vector<char> m_is_split;         // by wedge: others were one with it; or empty
 };
 
