@@ -189,7 +189,8 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
     hindrances[description.key] = done.hindrances[description.reason];
   report["hindrances"] = std::move(hindrances);
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
-                        {"placed", result.placed_vertices}};
+                        {"placed", result.placed_vertices},
+                        {"fitted_texture", result.fitted_texture}};
   report["corners"] = {{"mended_normals", result.mended_normals}, {"fitted_normals", result.fitted_normals}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;

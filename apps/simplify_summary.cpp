@@ -283,7 +283,8 @@ void print_reduction(std::ostream& stream, const Simplify_request& request, cons
   if (result.placed_vertices > 0)
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
-           << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
+           << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "")
+           << (result.fitted_texture > 0 ? ", the texture fitted to that of the input" : "");
   if (has_normals)
     print_normals(stream, request.normals, prepared.normals, result);
   if (level.polygons.input > 0 && has_polygons)

@@ -81,6 +81,7 @@ struct Simplified_soup
   std::optional<double> clearance; ///< that pieces keep from each other; `verify` judges it
 
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
+  std::size_t fitted_texture = 0;  ///< how many of these have fitted texture coordinates
   std::size_t mended_normals = 0;  ///< how many corners of `soup` have a new normal (`mend_normals`)
   std::size_t fitted_normals = 0;  ///< how many corners of `soup` have another normal (`fit_normals`)
 
@@ -116,6 +117,8 @@ struct Simplified_soup
 ///    their texture coordinates, normals and attributes (floating point, or normalized integers) are those of
 ///    the surface before each collapse, at its point nearest to the new position, by barycentric coordinates
 ///    on the same side of all lines, rounded to what a quantised glTF file can hold. Normals get the length 1.
+///    In the end, the (first) texture coordinates there are fitted: they become those with which the texture
+///    lies most like that of the input, in the sense of least squares (src/soup/fit_texture.h).
 ///    Other integers and the joints of a skin are those of the end that was nearer; its weights are mixed for
 ///    these joints, with the sum 1. Groups, objects and materials are kept. Normals are made anew or fitted
 ///    where `Prepare_options::normals` asks for it.

@@ -388,6 +388,7 @@ private:
     const internal::Stopwatch stopwatch;
     Simplified_soup result;
     Working_mesh::Result left = m_working.result();
+    result.fitted_texture = m_working.fit_texture(left);
     result.soup = std::move(left.soup);
     result.triangles = std::move(left.triangles);
     restore_normals(result.soup, m_prepared.normals);

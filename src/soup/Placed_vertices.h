@@ -65,6 +65,11 @@ public:
   /// corners. Returns their number.
   std::size_t put(const std::vector<Index_triple>& corners, Triangle_soup& result) const;
 
+  /// Gives those that have been put into a result, whose triangles are these, the texture coordinates of
+  /// `fitted_texture`. Returns how many have others than before.
+  std::size_t fit_texture(const std::vector<Index>& triangles, const std::vector<Index_triple>& corners,
+                          Triangle_soup& result) const;
+
 private:
   struct Placed_vertex
   {

@@ -222,6 +222,22 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
   return result;
 }
 
+void Vertex_values::set_uv(Numbers& numbers, Index corner, const std::array<double, 2>& uv) const
+{
+  const Column* const column = m_soup.scene ? scene_row(corner).table->find("TEXCOORD_0", 2) : nullptr;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (column) {
+      // `fraction` divides by the largest integer, or by 1.
+      const double one = fraction(column->type, 1), coordinate = i == 0 ? uv[0] : 1 - uv[1];
+      const double number = stored(*column, coordinate / one, i);
+      numbers[column->first + i] = number;
+      numbers[i] = i == 0 ? fraction(column->type, number) : 1 - fraction(column->type, number);
+    } else {
+      numbers[i] = m_are_uvs_float32 ? nearest_float32(uv[i]) : uv[i];
+    }
+  }
+}
+
 Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& own) const
 {
   const Numbers numbers_of_own = numbers_of(own);

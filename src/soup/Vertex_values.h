@@ -57,6 +57,9 @@ public:
   std::array<double, 2> mixed_uv(const Shares& shares, const Share& own) const;
   std::array<double, 2> uv(const Numbers& numbers) const { return {numbers[0], numbers[1]}; }
 
+  /// Sets the texture coordinates among the numbers of the vertex of a corner, as the soup can store them.
+  void set_uv(Numbers& numbers, Index corner, const std::array<double, 2>& uv) const;
+
   /// Returns the normal alone among such numbers. The soup must have some.
   std::array<double, 3> normal(const Numbers& numbers) const
   {

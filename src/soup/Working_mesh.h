@@ -164,6 +164,13 @@ public:
   };
   Result result() const;
 
+  /// Gives vertices of a result that are at new places the texture coordinates of `fitted_texture`. Returns
+  /// how many have others than before.
+  std::size_t fit_texture(Result& result) const
+  {
+    return m_placed.fit_texture(result.triangles, result.corners, result.soup);
+  }
+
 private:
   // Calls function(wedges) with those of the texture and of normals that are measured.
   template <class Function>

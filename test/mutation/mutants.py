@@ -347,6 +347,11 @@ group("src/soup/fit_normals.cpp", ("fitted_shading_test",),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
       ("if (split_wedges(fitted))", "if (false)", "an edge shades round where its bevel is gone"),
       ("errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"))
+group("src/soup/fit_texture.cpp", ("fit_texture_test",),
+      ("orientation(result[a], result[b], result[c]) == turn", "true", "a triangle of the texture turns over where it is fitted"),
+      ("if (is_within(uv))", "if (true)", "a fitted texture leaves the image"),
+      ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
+      ("<= m_size[i]", "<= 1e300", "a texture is fitted to what lies beyond a cut"))
 group("src/files/Polygon_starts.h", ("polygons_test",),
       ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
 group("src/files/Written_faces.cpp", ("polygons_test",),

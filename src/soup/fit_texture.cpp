@@ -1,0 +1,256 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "fit_texture.h"
+
+#include "Disjoint_sets.h"
+#include "Triangle_finder.h"
+#include "inner_edges.h"
+#include "number_positions.h"
+#include "surface_fit.h"
+#include "triangle_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+using shading::unit_normal;
+using shading::Vector;
+using surface_fit::area;
+using surface_fit::scaled;
+using Uv = std::array<double, 2>;
+
+// The weight of the coordinates as they are, relative to that of the samples around. It decides where there
+// are few samples.
+constexpr double s_inertia_of_texture = 0.02;
+
+class Texture_fit
+{
+public:
+  Texture_fit(const Triangle_soup& result, const std::vector<Index>& triangles,
+              const std::vector<char>& is_free, const Triangle_soup& original)
+      : m_result(result), m_triangles(triangles), m_is_free(is_free), m_original(original),
+        m_exponent(surface_fit::exponent_of(original)), m_old(result.points.size()),
+        m_numbers(result.triangles.size())
+  {
+    m_old.insert(m_old.end(), result.uvs.values.begin(), result.uvs.values.end());
+    m_inertia.resize(m_old.size());
+    m_is_fixed.resize(m_old.size(), true);
+    for (Index i = 0; i < result.triangles.size(); ++i) {
+      if (!has_texture(result.uvs, i))
+        continue;
+      const double inertia = s_inertia_of_texture * area(scaled(result, i, m_exponent)) / 3;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index v = result.triangles[i][k], uv = result.uvs.of_triangle[i][k];
+        m_numbers[i][k] = is_free[v] ? v : Index(result.points.size() + uv);
+        m_inertia[m_numbers[i][k]] += inertia;
+        if (is_free[v]) {
+          m_old[v] = result.uvs.values[uv];
+          m_is_fixed[v] = false;
+        }
+      }
+    }
+  }
+
+  template <class Stored>
+  std::vector<Uv> run(const Stored& stored)
+  {
+    take_samples();
+    const surface_fit::Least_squares<2> fit(m_moments, m_numbers, m_is_fixed, m_inertia);
+    return kept_upright(fit.solution(m_old), stored);
+  }
+
+private:
+  struct Sample
+  {
+    std::optional<Triangle_finder::Nearest> nearest;
+    Uv uv{};
+    double weight = 0;
+  };
+
+  static bool has_texture(const Corner_values<2>& uvs, Index triangle)
+  {
+    return uvs.of_triangle[triangle][0] != uvs.missing;
+  }
+
+  static const Uv& uv_at(const Corner_values<2>& uvs, Index triangle, std::size_t k)
+  {
+    return uvs.values[uvs.of_triangle[triangle][k]];
+  }
+
+  static std::array<Uv, 3> uvs_of(const Triangle_soup& soup, Index triangle)
+  {
+    return {uv_at(soup.uvs, triangle, 0), uv_at(soup.uvs, triangle, 1), uv_at(soup.uvs, triangle, 2)};
+  }
+
+  // Returns, for each triangle of the original, the number of what its texture goes on to.
+  std::vector<std::size_t> charts() const
+  {
+    const std::vector<Index_triple> triples =
+        in_positions(m_original.triangles, number_positions(m_original.points));
+    internal::Disjoint_sets sets(triples.size());
+    const auto uv = [&](Index corner) { return uv_at(m_original.uvs, corner / 3, corner % 3); };
+    internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
+      if (uv(a.at_low) == uv(b.at_low) && uv(a.at_high) == uv(b.at_high))
+        sets.unite(a.at_low / 3, b.at_low / 3);
+    });
+    std::vector<std::size_t> result(triples.size());
+    for (std::size_t t = 0; t < result.size(); ++t)
+      result[t] = sets.find(t);
+    return result;
+  }
+
+  void take_samples()
+  {
+    const std::vector<std::size_t> of_original = charts();
+    std::vector<std::array<Vector, 3>> searched;
+    std::vector<std::size_t> of_searched;
+    std::vector<Index> numbers;
+    std::vector<char> is_asked(m_original.triangles.size(), false); // by chart
+    m_moments.resize(m_result.triangles.size());
+    m_size.resize(m_result.triangles.size());
+    for (Index i = 0; i < m_result.triangles.size(); ++i) {
+      if (!has_texture(m_result.uvs, i) || unit_normal(m_result, i) == Vector{})
+        continue;
+      searched.push_back(scaled(m_result, i, m_exponent));
+      of_searched.push_back(of_original[m_triangles[i]]);
+      numbers.push_back(i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        is_asked[of_searched.back()] |= m_is_free[m_result.triangles[i][k]];
+        const Uv &p = uv_at(m_result.uvs, i, k), &q = uv_at(m_result.uvs, i, (k + 1) % 3);
+        m_size[i] = std::max(m_size[i], std::hypot(p[0] - q[0], p[1] - q[1]));
+      }
+    }
+    const Triangle_finder finder(std::move(searched), of_searched);
+    surface_fit::find_in_parallel(
+        m_original.triangles.size(),
+        [&](Index t) {
+          return is_asked[of_original[t]] ? samples_of(t, finder, of_original[t]) : std::array<Sample, 3>{};
+        },
+        [&](const std::array<Sample, 3>& samples) {
+          for (const Sample& sample : samples)
+            if (sample.nearest)
+              add(sample, numbers[sample.nearest->triangle]);
+        });
+  }
+
+  std::array<Sample, 3> samples_of(Index t, const Triangle_finder& finder, std::size_t chart) const
+  {
+    std::array<Sample, 3> samples;
+    if (!has_texture(m_original.uvs, t))
+      return samples;
+    const std::array<Vector, 3> corners = scaled(m_original, t, m_exponent);
+    const std::array<Uv, 3> uvs = uvs_of(m_original, t);
+    const double weight = area(corners) / 3;
+    const Vector front = unit_normal(m_original, t);
+    for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
+      const std::array<double, 3>& weights = surface_fit::s_sample_weights[j];
+      const Vector place = surface_fit::interpolated(corners, weights);
+      samples[j] = {finder.nearest(place, chart, front), surface_fit::interpolated(uvs, weights), weight};
+    }
+    return samples;
+  }
+
+  void add(const Sample& sample, Index i)
+  {
+    const std::array<double, 3>& weights = sample.nearest->weights;
+    const Uv here = surface_fit::interpolated(uvs_of(m_result, i), weights);
+    if (std::hypot(sample.uv[0] - here[0], sample.uv[1] - here[1]) <= m_size[i])
+      m_moments[i].add(weights, sample.uv, sample.weight);
+  }
+
+  static CGAL::Orientation orientation(const Uv& a, const Uv& b, const Uv& c)
+  {
+    return CGAL::orientation(Kernel::Point_2(a[0], a[1]), Kernel::Point_2(b[0], b[1]),
+                             Kernel::Point_2(c[0], c[1]));
+  }
+
+  // Returns coordinates as they are stored, each as far on the way from the old ones as keeps all triangles.
+  template <class Stored>
+  std::vector<Uv> kept_upright(const std::vector<Uv>& fitted, const Stored& stored) const
+  {
+    constexpr int most_halvings = 3;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    Uv low{infinite, infinite}, high{-infinite, -infinite};
+    for (const Index_triple& corners : m_original.uvs.of_triangle)
+      for (const Index number : corners)
+        for (std::size_t axis = 0; axis < 2 && number != m_original.uvs.missing; ++axis) {
+          low[axis] = std::min(low[axis], m_original.uvs.values[number][axis]);
+          high[axis] = std::max(high[axis], m_original.uvs.values[number][axis]);
+        }
+    const auto is_within = [&](const Uv& uv) {
+      return uv[0] >= low[0] && uv[0] <= high[0] && uv[1] >= low[1] && uv[1] <= high[1];
+    };
+    std::vector<Uv> result = m_old;
+    std::vector<int> halvings(result.size(), 0);
+    const auto place = [&](std::size_t v) {
+      for (; halvings[v] <= most_halvings; ++halvings[v]) {
+        const double share = std::ldexp(1, -halvings[v]);
+        const Uv uv = stored(Index(v), {m_old[v][0] + share * (fitted[v][0] - m_old[v][0]),
+                                        m_old[v][1] + share * (fitted[v][1] - m_old[v][1])});
+        if (is_within(uv)) {
+          result[v] = uv;
+          return;
+        }
+      }
+      result[v] = m_old[v];
+    };
+    for (std::size_t v = 0; v < result.size(); ++v)
+      if (!m_is_fixed[v])
+        place(v);
+    // Every round takes some vertex a step back, and all are right where they were.
+    for (bool is_any_back = true; is_any_back;) {
+      is_any_back = false;
+      std::vector<char> is_back(result.size(), false);
+      for (Index i = 0; i < m_result.triangles.size(); ++i) {
+        if (!has_texture(m_result.uvs, i))
+          continue;
+        const auto& [a, b, c] = m_numbers[i];
+        const CGAL::Orientation turn = orientation(m_old[a], m_old[b], m_old[c]);
+        if (turn == CGAL::COLLINEAR || orientation(result[a], result[b], result[c]) == turn)
+          continue;
+        for (const Index n : m_numbers[i])
+          is_back[n] |= !m_is_fixed[n] && halvings[n] <= most_halvings;
+      }
+      for (std::size_t v = 0; v < result.size(); ++v)
+        if (is_back[v]) {
+          ++halvings[v];
+          place(v);
+          is_any_back = true;
+        }
+    }
+    result.resize(m_result.points.size());
+    return result;
+  }
+
+  const Triangle_soup& m_result;
+  const std::vector<Index>& m_triangles;
+  const std::vector<char>& m_is_free; // by vertex of the result
+  const Triangle_soup& m_original;
+  int m_exponent;
+  // The numbers of coordinates: those of free vertices, then those of the values of other corners.
+  std::vector<Uv> m_old;
+  std::vector<char> m_is_fixed;
+  std::vector<double> m_inertia;
+  std::vector<Index_triple> m_numbers;            // by triangle of the result
+  std::vector<surface_fit::Moments<2>> m_moments; // likewise
+  std::vector<double> m_size;                     // likewise: the longest side in the texture
+};
+
+} // namespace
+
+std::vector<std::array<double, 2>> fitted_texture(const Triangle_soup& result,
+                                                  const std::vector<Index>& triangles,
+                                                  const std::vector<char>& is_free,
+                                                  const Triangle_soup& original,
+                                                  const std::function<Uv(Index, const Uv&)>& stored)
+{
+  return Texture_fit(result, triangles, is_free, original).run(stored);
+}
+
+} // namespace selvedge
