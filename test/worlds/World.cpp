@@ -3,6 +3,8 @@
 
 #include "World.h"
 
+#include "soup/Gltf_scene.h"
+
 #include <selvedge/poses.h>
 
 #include <nlohmann/json.hpp>
@@ -42,6 +44,16 @@ void read_optional(const Json& json, std::optional<Value>& value)
 {
   if (!json.is_null())
     value = json.get<Value>();
+}
+
+// Returns whether Draco holds some column of the vertices on the steps of a quantisation.
+bool is_quantised(const Gltf_scene& scene)
+{
+  for (const Gltf_scene::Block& block : scene.blocks)
+    for (const Gltf_scene::Column& column : block.attributes)
+      if (column.compression && column.compression->quantisation)
+        return true;
+  return false;
 }
 
 Mesh_format format_of(const Json& json)
@@ -327,7 +339,7 @@ std::set<std::string> options_used(const World& world)
     options.insert("polygons");
   if (tangents_of(world.soup))
     options.insert("tangents");
-  if (world.scene.find(", quantised") != std::string::npos)
+  if (world.soup.scene && is_quantised(*world.soup.scene))
     options.insert("quantised");
   return options;
 }

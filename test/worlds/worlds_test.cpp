@@ -53,7 +53,9 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.turned, s_seeds / 20);
   EXPECT_GE(counts.options["shared_meshes"], s_seeds / 200);
   EXPECT_GT(counts.options["tangents"], 0u);
+#if defined(SELVEDGE_HAS_DRACO)
   EXPECT_GT(counts.options["quantised"], 0u);
+#endif
   EXPECT_GT(counts.options["mended_normals"], 0u);
   EXPECT_GT(counts.options["fitted_normals"], 0u);
   EXPECT_GT(counts.options["picked_normals"], 0u);
