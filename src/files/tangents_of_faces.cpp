@@ -32,10 +32,8 @@ Direction direction(const Gltf_scene::Column& tangents, Index row)
 
 std::size_t join_tangents_of_faces(Gltf_scene::Block& block)
 {
-  const auto tangents =
-      std::find_if(block.attributes.begin(), block.attributes.end(),
-                   [&](const Gltf_scene::Column& column) { return &column == block.tangents(); });
-  if (tangents == block.attributes.end() || tangents->component_type != type_float32)
+  Gltf_scene::Column* const tangents = block.tangents();
+  if (!tangents || tangents->component_type != type_float32)
     return 0;
   std::unordered_map<std::string, std::vector<Index>> rows_alike; // by all other bytes
   Cancellation_poll poll;

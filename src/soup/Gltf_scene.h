@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -113,18 +112,21 @@ struct Gltf_scene
     std::vector<std::vector<Column>> targets;
 
     /// Returns the column of the normals; null where there is none of three components.
-    const Column* normals() const { return find("NORMAL", 3); }
+    const Column* normals() const { return find(*this, "NORMAL", 3); }
 
     /// Returns the column of the tangents; null where there is none of four components.
-    const Column* tangents() const { return find("TANGENT", 4); }
+    const Column* tangents() const { return find(*this, "TANGENT", 4); }
+    Column* tangents() { return find(*this, "TANGENT", 4); }
 
   private:
-    const Column* find(const char* name, std::size_t components) const
+    template <class Block_or_const>
+    static auto find(Block_or_const& block, const char* name, std::size_t components)
+        -> decltype(block.attributes.data())
     {
-      const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const Column& column) {
-        return column.name == name && column.components == components;
-      });
-      return found == attributes.end() ? nullptr : &*found;
+      for (auto& column : block.attributes)
+        if (column.name == name && column.components == components)
+          return &column;
+      return nullptr;
     }
   };
 
