@@ -203,7 +203,7 @@ struct Piece_mismatch
 /// The result of `match_pieces`: which piece of a result came from which piece of the original.
 struct Piece_matching
 {
-  std::vector<Piece> pieces_of_original;
+  std::vector<Piece> pieces_of_original, pieces_of_result;
   std::vector<Piece_match> matches;
   std::vector<Piece_mismatch> mismatches;
   /// The kinds of names that were compared, of "group", "object" and "material".

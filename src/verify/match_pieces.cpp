@@ -44,6 +44,7 @@ Piece_matching matching_of(const Triangle_soup& result, const Triangle_soup& ori
   if (options.are_shapes_judged)
     judge_shapes(matching);
   found.pieces_of_original = matching.original.pieces();
+  found.pieces_of_result = matching.result.pieces();
   return std::move(found);
 }
 

@@ -179,7 +179,11 @@ Verification verify(const Triangle_soup& mesh, const Verify_options& options, co
           in_pose.new_pairs = in_pose.pairs;
         });
       }),
-      Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
+      Cancellation_scope::inherited([&] {
+        if (!options.clearance)
+          numbered = internal::numbered_pieces(mesh);
+      }));
+  verification.pieces = std::move(numbered.pieces);
   return verification;
 }
 
@@ -245,7 +249,6 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
     find_pairs(geometry_in_pose(result, obstacle, pose), before, known, permitted, in_pose.pairs,
                in_pose.new_pairs);
   };
-  internal::Numbered_pieces numbered;
   tbb::parallel_invoke(
       Cancellation_scope::inherited([&] {
         const auto find_in_first = [&](const Triangle_soup& after, const Triangle_soup& before) {
@@ -258,14 +261,14 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
           find_in_first(geometry_with_obstacle(result, obstacle), geometry_with_obstacle(original, obstacle));
         internal::for_each_pose(result.poses.size(), judge_pose);
       }),
-      Cancellation_scope::inherited([&] { numbered = internal::numbered_pieces(result); }),
       Cancellation_scope::inherited(
           [&] { verification.matching = match_pieces(result, original, options); }));
   if (options.clearance) {
-    const internal::Numbered_pieces of_original = internal::numbered_pieces(original);
+    const internal::Numbered_pieces of_result = internal::numbered_pieces(result),
+                                    of_original = internal::numbered_pieces(original);
     const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
       return internal::judge_clearance(*options.clearance, after, before,
-                                       internal::matched_pieces(after, before, numbered, of_original,
+                                       internal::matched_pieces(after, before, of_result, of_original,
                                                                 verification.matching,
                                                                 options.triangles_of_original));
     };
@@ -276,7 +279,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                                                               geometry_in_pose(original, obstacle, pose));
     });
   }
-  verification.pieces = std::move(numbered.pieces);
+  verification.pieces = verification.matching.pieces_of_result;
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);
