@@ -57,73 +57,30 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
                      const std::vector<char>& is_turned, const std::vector<Index>& fronts)
     : Corner_mesh(soup, positions, is_turned, fronts, triangles_in_space(soup, fronts, obstacle, scale))
 {
-  const Index own_vertices = Index(soup.points.size()), own_triangles = Index(soup.triangles.size());
-  const Index face_count = Index(own_face_count() + obstacle.triangles.size());
-  const auto obstacle_triangle = [&](Index face) -> const Index_triple& {
-    return obstacle.triangles[triangle(Face(face)) - own_triangles];
-  };
-  std::vector<Index_triple> triangles; // of positions, by face
-  triangles.reserve(face_count);
-  for (Index number = 0; number < face_count; ++number) {
-    const Face face(number);
-    m_is_frozen.push_back(is_frozen[triangle(face)]);
-    if (is_own(face)) {
-      const auto& [a, b, c] = corners(face);
-      triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
-      for (Index i = 1; i < ply_count(face) && m_is_frozen[face] == 0; ++i)
-        m_is_frozen[face] = is_frozen[triangle(face, i)];
-      if (has_doubles(face))
-        m_constraints.multiplicities.emplace_back(face, ply_count(face));
-    } else {
-      const auto& [a, b, c] = obstacle_triangle(number);
-      triangles.push_back(
-          {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
-      m_constraints.uncounted_faces.push_back(face);
-    }
-  }
-  const Index own_corners = Index(3 * own_face_count());
+  const std::vector<Index_triple> triangles = add_faces(positions, is_frozen, obstacle);
   note_vertices(positions);
-  const Index corner_count = Index(3 * triangles.size());
-  const auto own_corner = [&](Index corner) { return corners(Face(corner / 3))[corner % 3]; };
+  const Index own_corners = Index(3 * own_face_count());
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
   Cancellation_scope::check();
   std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
-  for (Corner corner = corner_count; corner-- > 0;)
+  for (Corner corner = Index(3 * triangles.size()); corner-- > 0;)
     corner_of[sewing.vertex(corner)] = corner;
   const std::vector<Halfedge> halfedges = build(sewing, [&](Index vertex) {
-    const Corner corner = corner_of[vertex];
-    return scale(corner < own_corners ? soup.points[vertex_of(own_corner(corner))]
-                                      : obstacle.points[obstacle_triangle(corner / 3)[corner % 3]]);
+    const Face face(corner_of[vertex] / 3);
+    const Index place = corner_of[vertex] % 3;
+    return scale(is_own(face)
+                     ? soup.points[vertex_of(corners(face)[place])]
+                     : obstacle.points[obstacle.triangles[triangle(face) - soup.triangles.size()][place]]);
   });
 
+  std::vector<Index> position_of;                      // by vertex
   std::vector<Index> vertices_at(positions.size(), 0); // the number of vertices, by position
-  const auto position_of = [&](Index vertex) {
-    return triangles[corner_of[vertex] / 3][corner_of[vertex] % 3];
-  };
-  const auto count_vertices = [&](Index vertex, Corner beyond) {
-    for (; vertex < corner_of.size() && corner_of[vertex] < beyond; ++vertex)
-      ++vertices_at[position_of(vertex)];
-    return vertex;
-  };
-  const Index first_of_obstacle = count_vertices(0, own_corners);
-  m_notes.unsewn_positions =
-      std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
-  count_vertices(first_of_obstacle, corner_count);
-  std::vector<char> is_locked(corner_of.size(), false);
-  for (Index v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = vertices_at[position_of(v)] > 1;
-  std::vector<char> is_in_frozen_face(corner_of.size(), false), moves_alone(corner_of.size(), false);
-  for (Corner corner = 0; corner < corner_count; ++corner) {
-    const Face face(corner / 3);
-    is_in_frozen_face[sewing.vertex(corner)] |= m_is_frozen[face];
-    moves_alone[sewing.vertex(corner)] |=
-        is_in_frozen_face[sewing.vertex(corner)] ||
-        (has_doubles(face) && !have_plies_one_vertex(face, static_cast<unsigned char>(corner % 3)));
+  for (const Corner corner : corner_of) {              // vertices of the obstacle come last
+    const Index position = triangles[corner / 3][corner % 3];
+    position_of.push_back(position);
+    m_notes.unsewn_positions += ++vertices_at[position] == 2 && corner < own_corners;
   }
-  find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
-  for (Index v = 0; v < is_locked.size(); ++v)
-    is_locked[v] |= is_in_frozen_face[v];
-  lock(is_locked);
+  find_locked(sewing, position_of, vertices_at);
   find_misoriented(sewing);
   Cancellation_scope::check();
   find_lines(sewing, halfedges);
@@ -198,6 +155,35 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
       m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
 }
 
+// Notes what is said of each face, and returns the positions of its corners.
+std::vector<Index_triple> Sewn_mesh::add_faces(const std::vector<Index>& positions,
+                                               const std::vector<char>& is_frozen,
+                                               const Triangle_soup& obstacle)
+{
+  const Index own_vertices = Index(soup().points.size()), own_triangles = Index(soup().triangles.size());
+  const Index face_count = Index(own_face_count() + obstacle.triangles.size());
+  std::vector<Index_triple> triangles;
+  triangles.reserve(face_count);
+  for (Index number = 0; number < face_count; ++number) {
+    const Face face(number);
+    m_is_frozen.push_back(is_frozen[triangle(face)]);
+    if (is_own(face)) {
+      const auto& [a, b, c] = corners(face);
+      triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
+      for (Index i = 1; i < ply_count(face) && m_is_frozen[face] == 0; ++i)
+        m_is_frozen[face] = is_frozen[triangle(face, i)];
+      if (has_doubles(face))
+        m_constraints.multiplicities.emplace_back(face, ply_count(face));
+    } else {
+      const auto& [a, b, c] = obstacle.triangles[triangle(face) - own_triangles];
+      triangles.push_back(
+          {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+      m_constraints.uncounted_faces.push_back(face);
+    }
+  }
+  return triangles;
+}
+
 void Sewn_mesh::note_vertices(const std::vector<Index>& positions)
 {
   const std::vector<char> is_used = are_used(soup());
@@ -244,8 +230,7 @@ void Sewn_mesh::find_lines(const Sewing& sewing, const std::vector<Halfedge>& ha
 // Takes the spokes out of the lines: those at a pole, where at least three edges differ at one end only, and
 // in no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
 // differ, the edge is a border of a piece. Vertices at one position count as one, as they do for a replay.
-template <class Function>
-void Sewn_mesh::find_spokes(const Function& position_of)
+void Sewn_mesh::find_spokes(const std::vector<Index>& position_of)
 {
   constexpr Index least = 3; // spokes at a pole
   const auto differs_at_target = [this](Mesh::Edge_index e) -> std::optional<Halfedge> {
@@ -259,9 +244,9 @@ void Sewn_mesh::find_spokes(const Function& position_of)
   std::map<Index, Index> counts; // by position
   for (const Mesh::Edge_index e : lines)
     if (const auto h = differs_at_target(e))
-      ++counts[position_of(mesh().target(*h))];
+      ++counts[position_of[mesh().target(*h)]];
   for (const Mesh::Edge_index e : lines)
-    if (const auto h = differs_at_target(e); h && counts[position_of(mesh().target(*h))] >= least)
+    if (const auto h = differs_at_target(e); h && counts[position_of[mesh().target(*h)]] >= least)
       m_constraints.spokes.push_back(*h);
     else
       m_constraints.line_edges.push_back(e);
@@ -274,12 +259,34 @@ void Sewn_mesh::lock(const std::vector<char>& is_locked)
       m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
 }
 
+// Locks the vertices of frozen faces, and those that share a position and cannot move together.
+void Sewn_mesh::find_locked(const Sewing& sewing, const std::vector<Index>& position_of,
+                            const std::vector<Index>& vertices_at)
+{
+  std::vector<char> is_locked, is_in_frozen_face(position_of.size(), false),
+      moves_alone(position_of.size(), false);
+  for (const Index position : position_of)
+    is_locked.push_back(vertices_at[position] > 1);
+  for (Corner corner = 0; corner < 3 * m_is_frozen.size(); ++corner) {
+    const Face face(corner / 3);
+    const Index v = sewing.vertex(corner);
+    is_in_frozen_face[v] |= m_is_frozen[face];
+    moves_alone[v] |=
+        is_in_frozen_face[v] ||
+        (has_doubles(face) && !have_plies_one_vertex(face, static_cast<unsigned char>(corner % 3)));
+  }
+  find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
+  for (Index v = 0; v < is_locked.size(); ++v)
+    is_locked[v] |= is_in_frozen_face[v];
+  lock(is_locked);
+}
+
 // Finds the positions where several sheets meet along a line that comes from one position and goes on to
 // another, and unlocks their vertices: one on the border of each sheet, which all move together. A vertex of
 // an obstacle is in a frozen face.
-template <class Function>
 void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
-                                    const std::vector<Index>& vertices_at, const Function& position_of)
+                                    const std::vector<Index>& vertices_at,
+                                    const std::vector<Index>& position_of)
 {
   struct Place_on_line
   {
@@ -289,13 +296,13 @@ void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vec
   };
   std::map<Index, Place_on_line> places; // by position
   for (Index v = 0; v < is_locked.size(); ++v) {
-    if (vertices_at[position_of(v)] < 2)
+    if (vertices_at[position_of[v]] < 2)
       continue;
     const Halfedge border = mesh().halfedge(Mesh::Vertex_index(v)); // or an inner one, if none
     const auto ends =
-        std::minmax({position_of(mesh().source(border)), position_of(mesh().target(mesh().next(border)))});
+        std::minmax({position_of[mesh().source(border)], position_of[mesh().target(mesh().next(border))]});
     const auto [place, is_new] =
-        places.try_emplace(position_of(v), Place_on_line{ends.first, ends.second, {}});
+        places.try_emplace(position_of[v], Place_on_line{ends.first, ends.second, {}});
     place->second.vertices.push_back(Mesh::Vertex_index(v));
     place->second.is_inside = place->second.is_inside && mesh().is_border(border) && !is_in_frozen_face[v] &&
                               ends.first != ends.second && ends.first == place->second.first_end &&
@@ -311,8 +318,7 @@ void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vec
 
 // Finds the ends of lines that a reader of the log may not see: those where the mesh is cut for the sake of
 // non-manifold places, and those of normals, which may be made anew.
-template <class Function>
-void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
+void Sewn_mesh::find_no_strip_vertices(const std::vector<Index>& position_of)
 {
   const auto add = [this](Halfedge h) {
     m_constraints.no_strip_vertices.push_back(mesh().source(h));
@@ -331,7 +337,7 @@ void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
   std::vector<std::pair<std::pair<Index, Index>, Halfedge>> borders; // by the ends' positions
   for (const Halfedge h : mesh().halfedges())
     if (mesh().is_border(h))
-      borders.push_back({std::minmax({position_of(mesh().source(h)), position_of(mesh().target(h))}), h});
+      borders.push_back({std::minmax({position_of[mesh().source(h)], position_of[mesh().target(h)]}), h});
   std::sort(borders.begin(), borders.end());
   for (std::size_t i = 1; i < borders.size(); ++i)
     if (borders[i - 1].first == borders[i].first) {

@@ -110,17 +110,18 @@ protected:
   void set_held_elsewhere(std::vector<char> vertices) { m_is_held_elsewhere = std::move(vertices); }
 
 private:
+  std::vector<Index_triple> add_faces(const std::vector<Index>& positions, const std::vector<char>& is_frozen,
+                                      const Triangle_soup& obstacle);
   void note_vertices(const std::vector<Index>& positions);
   void lock(const std::vector<char>& is_locked);
   void find_misoriented(const Sewing& sewing);
   void find_lines(const Sewing& sewing, const std::vector<Halfedge>& halfedges);
-  template <class Function>
-  void find_spokes(const Function& position_of);
-  template <class Function>
+  void find_locked(const Sewing& sewing, const std::vector<Index>& position_of,
+                   const std::vector<Index>& vertices_at);
+  void find_spokes(const std::vector<Index>& position_of);
   void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
-                           const std::vector<Index>& vertices_at, const Function& position_of);
-  template <class Function>
-  void find_no_strip_vertices(const Function& position_of);
+                           const std::vector<Index>& vertices_at, const std::vector<Index>& position_of);
+  void find_no_strip_vertices(const std::vector<Index>& position_of);
 
   std::vector<char> m_is_frozen;         // by face: as given, of one of its plies
   std::vector<char> m_is_wished;         // by vertex: locked because the user wants it so; or empty
