@@ -120,11 +120,12 @@ namespace selvedge {
 /// one whose contents are more than 100 times its size (and 64 KiB): a small file cannot fill the memory.
 /// The same mesh gives the same packed bytes.
 ///
-/// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a
-/// polygon. Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a
-/// polygon in a PLY file gives its attributes to each of its triangles. A PLY file for which these take more
-/// than 64 times its size (unpacked) is refused, and a glTF file whose instances have more than 2^20 vertices
-/// and corners and more than 256 for each byte of its buffers.
+/// **Complexity.** Time is linear in the size of the file, and as a rule O(n log n) for a polygon of n
+/// corners; where very many of its triangles are long and lie askew to the axes, as in a narrow strip, O(n²).
+/// Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a polygon in
+/// a PLY file gives its attributes to each of its triangles. A PLY file for which these take more than 64
+/// times its size (unpacked) is refused, and a glTF file whose instances have more than 2^20 vertices and
+/// corners and more than 256 for each byte of its buffers.
 
 enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 

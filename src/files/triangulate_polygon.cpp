@@ -5,8 +5,16 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#include <CGAL/Bbox_2.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <utility>
 
 // Cuts the polygons of a file into triangles when it is read; all signs are exact.
 
@@ -14,6 +22,7 @@ namespace selvedge::files {
 namespace {
 
 using Point_2 = Kernel::Point_2;
+using Triangle = std::array<Point_2, 3>;
 
 /// Returns the coordinate axis along which the polygon looks largest. Rounding may select another one of
 /// nearly the same size; any axis is good along which ears can be cut.
@@ -45,6 +54,64 @@ int widest_view(const std::vector<Point_3>& points, const std::vector<Index>& co
   return widest;
 }
 
+/// Tells whether some points of the plane lie in a triangle, by a tree of boxes.
+class Points_in_plane
+{
+public:
+  explicit Points_in_plane(std::vector<Point_2> points)
+      : m_points(std::move(points)), m_boxes(m_points.size())
+  {
+    halve(0, m_points.size(), 0);
+  }
+
+  /// Returns whether a point lies in a triangle or on its sides, but not at a corner. The corners turn left.
+  bool is_any_in(const Triangle& triangle) const { return is_any_in(triangle, 0, m_points.size()); }
+
+private:
+  static constexpr std::size_t s_few = 8;
+
+  // Puts the point in the middle of a range between two halves, along the two axes in turn.
+  void halve(std::size_t first, std::size_t beyond, int axis)
+  {
+    if (beyond - first <= s_few)
+      return;
+    const std::size_t middle = (first + beyond) / 2;
+    const auto at = [&](std::size_t place) { return m_points.begin() + std::ptrdiff_t(place); };
+    m_boxes[middle] = CGAL::bbox_2(at(first), at(beyond));
+    std::nth_element(at(first), at(middle), at(beyond),
+                     [axis](const Point_2& p, const Point_2& q) { return p[axis] < q[axis]; });
+    halve(first, middle, 1 - axis);
+    halve(middle + 1, beyond, 1 - axis);
+  }
+
+  bool is_any_in(const Triangle& triangle, std::size_t first, std::size_t beyond) const
+  {
+    const auto& [a, b, c] = triangle;
+    const auto is_in = [&, &a = a, &b = b, &c = c](const Point_2& p) {
+      return p != a && p != b && p != c && !CGAL::right_turn(a, b, p) && !CGAL::right_turn(b, c, p) &&
+             !CGAL::right_turn(c, a, p);
+    };
+    if (beyond - first <= s_few)
+      return std::any_of(m_points.data() + first, m_points.data() + beyond, is_in);
+    const std::size_t middle = (first + beyond) / 2;
+    const CGAL::Bbox_2& box = m_boxes[middle];
+    return CGAL::do_overlap(box, CGAL::bbox_2(triangle.begin(), triangle.end())) && !is_beyond(a, b, box) &&
+           !is_beyond(b, c, box) && !is_beyond(c, a, box) &&
+           (is_in(m_points[middle]) || is_any_in(triangle, first, middle) ||
+            is_any_in(triangle, middle + 1, beyond));
+  }
+
+  // Returns whether a box lies to the right of the way from a to b.
+  static bool is_beyond(const Point_2& a, const Point_2& b, const CGAL::Bbox_2& box)
+  {
+    const Point_2 leftmost(b.y() > a.y() ? box.xmin() : box.xmax(), b.x() > a.x() ? box.ymax() : box.ymin());
+    return CGAL::right_turn(a, b, leftmost);
+  }
+
+  std::vector<Point_2> m_points;
+  std::vector<CGAL::Bbox_2> m_boxes; // of ranges of more than a few points, by the place of their middle
+};
+
 /// Cuts ears off a polygon of the plane until a triangle remains; false when that fails. It never fails for a
 /// simple polygon, because any triangulation of one has two ears, and cutting one leaves a simple polygon.
 bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& triangles)
@@ -64,41 +131,46 @@ bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& tri
     return false;
 
   // Only reflex and straight corners can obstruct an ear, and cutting ears makes no new ones.
-  std::vector<Index> obstacles;
+  std::vector<Point_2> obstacles;
   for (Index i = 0; i < size; ++i)
     if (turn_at(i) != inside)
-      obstacles.push_back(i);
+      obstacles.push_back(points[i]);
+  const Points_in_plane in_the_way(std::move(obstacles));
   const auto is_ear = [&](Index i) {
     if (turn_at(i) != inside)
       return false;
-    const Point_2 &a = points[previous[i]], &b = points[i], &c = points[next[i]];
-    return std::none_of(obstacles.begin(), obstacles.end(), [&](Index obstacle) {
-      const Point_2& p = points[obstacle];
-      return p != a && p != b && p != c && CGAL::orientation(a, b, p) != -inside &&
-             CGAL::orientation(b, c, p) != -inside && CGAL::orientation(c, a, p) != -inside;
-    });
+    const bool is_left = inside == CGAL::LEFT_TURN;
+    return !in_the_way.is_any_in(
+        {points[is_left ? previous[i] : next[i]], points[i], points[is_left ? next[i] : previous[i]]});
   };
 
-  // A corner that is no ear stays so until one of its neighbours is cut off.
-  std::vector<char> is_refused(size, false);
-  Index corner = 1, refused = 0;
+  // Walks around and around. A corner that is no ear stays so until one of its neighbours is cut off: `turn`
+  // is when the walk comes to one that may be an ear, in steps from corner 0.
+  std::vector<std::size_t> steps(size);
+  std::iota(steps.begin(), steps.end(), std::size_t(1));
+  std::priority_queue turns(std::greater<>(), std::move(steps));
+  std::vector<char> has_turn(size, true);
+  Index corner = 1;
   for (Index left = size; left > 3;) {
     if (size > 1000) // each look at a corner may take this many steps
       Cancellation_scope::check();
-    const Index following = next[corner];
-    if (!is_refused[corner] && is_ear(corner)) {
-      triangles.push_back({previous[corner], corner, following});
-      next[previous[corner]] = following;
-      previous[following] = previous[corner];
-      is_refused[following] = is_refused[previous[corner]] = false;
-      --left;
-      refused = 0;
-    } else {
-      is_refused[corner] = true;
-      if (++refused == left)
-        return false;
-    }
+    if (turns.empty())
+      return false;
+    const std::size_t turn = turns.top();
+    turns.pop();
+    corner = Index(turn % size);
+    has_turn[corner] = false;
+    if (!is_ear(corner))
+      continue;
+    const Index following = next[corner], preceding = previous[corner];
+    triangles.push_back({preceding, corner, following});
+    next[preceding] = following;
+    previous[following] = preceding;
+    for (const Index neighbour : {preceding, following})
+      if (!std::exchange(has_turn[neighbour], true))
+        turns.push(turn - corner + neighbour + (neighbour < corner ? size : 0));
     corner = following;
+    --left;
   }
   triangles.push_back({previous[corner], corner, next[corner]});
   return turn_at(corner) == inside;
