@@ -262,19 +262,25 @@ double deepest_pair(const Triangle_soup& soup)
   return deepest;
 }
 
-// Without the limit, they pierce each other six times as deep.
 TEST(Descent, KeepsShallowPairsShallow)
 {
-  const Triangle_soup soup = sheets_through_each_other(3000, 0.1);
-  const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
+  const Triangle_soup sheets = sheets_through_each_other(3000, 0.1);
+  const CGAL::Bbox_3 box = CGAL::bbox_3(sheets.points.begin(), sheets.points.end());
   const double shallow = Simplify_constraints<Filtered_mesh>::s_share_of_shallow_pairs *
                          std::hypot(box.x_span(), box.y_span(), box.z_span());
-  const double before = deepest_pair(soup);
+  const double before = deepest_pair(sheets);
   EXPECT_GT(before, 0);
   ASSERT_LE(before, shallow);
+  // The control: beside something far away, all these pairs are shallow, however deep.
+  const Triangle_soup small_sheets =
+      joined(sheets, soup({{100, 0, 0}, {101, 0, 0}, {100, 1, 0}}, {{0, 1, 2}}));
+  const auto deepest_after = [](const Triangle_soup& scene, double ratio) {
+    const Reduction reduction = reduce(scene, without_limits(to_ratio(ratio)), with(Defects::descend));
+    return deepest_pair(reduction.simplified.soup);
+  };
   for (const double ratio : {0.1, 0.02}) {
-    const Reduction reduction = reduce(soup, without_limits(to_ratio(ratio)), with(Defects::descend));
-    EXPECT_LE(deepest_pair(reduction.simplified.soup), shallow) << ratio;
+    EXPECT_LE(deepest_after(sheets, ratio), shallow) << ratio;
+    EXPECT_GT(deepest_after(small_sheets, ratio), 2 * shallow) << ratio;
   }
 }
 
