@@ -44,9 +44,10 @@ namespace {
 class Reduction
 {
 public:
-  explicit Reduction(const Simplify_request& request)
-      : m_request(request), m_bar(!request.is_quiet), m_missed_target(request.options)
+  explicit Reduction(const Simplify_request& request) : m_request(request), m_bar(!request.is_quiet)
   {
+    if (is_shape_kept(request))
+      m_missed_target.emplace(request.options);
   }
 
   Exit_code run()
@@ -117,20 +118,18 @@ private:
   // Returns whether there is to be one.
   bool keep_shape(const std::vector<Level>& levels)
   {
-    if (!is_shape_kept(m_request) || !m_outcome.is_accepted)
+    if (!m_missed_target || !m_outcome.is_accepted)
       return false;
     std::vector<Missed_target::Judged> judged;
     for (const Level& level : levels)
       judged.push_back({level.result, level.verification.distances->original_to_result});
-    return m_missed_target.advance(judged);
+    return m_missed_target->advance(judged);
   }
 
   std::vector<Level> reduce()
   {
     m_bar.begin("sewing and indexing");
-    Simplify_options options = m_missed_target.options();
-    if (!is_shape_kept(m_request)) // then no reduction follows that could use them
-      options.remembered_refusals.reset();
+    Simplify_options options = m_missed_target ? m_missed_target->options() : m_request.options;
     options.placement = placement_for(m_request, m_input.prepared.soup);
     if (m_error_search)
       options.max_error = m_error_search->max_error();
@@ -173,7 +172,8 @@ private:
       results.push_back(simplify_soup(m_input.prepared, options, m_request.intent));
     else
       results = simplify_lods(m_input.prepared, options, m_request.lods, m_request.intent);
-    m_missed_target.complete(results);
+    if (m_missed_target)
+      m_missed_target->complete(results);
     const auto is_stopped = [](const Simplified_soup& result) { return result.report.is_stopped; };
     const auto is_untouched = [](const Simplified_soup& result) { return result.report.collapses == 0; };
     m_is_kept = std::any_of(results.begin(), results.end(), is_stopped);
@@ -441,10 +441,10 @@ private:
   Json m_report = new_report("simplify");
   std::ostringstream m_log; // if it is written
   std::vector<std::size_t> m_guarded_poses;
-  Missed_target m_missed_target;
-  std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
-  std::vector<Soup_collapse> m_collapses;     // if a page shows them
-  Progression m_progression;                  // if it is written
+  std::optional<Missed_target> m_missed_target; // where shape is kept
+  std::optional<Error_search> m_error_search;   // where the error is to be kept everywhere
+  std::vector<Soup_collapse> m_collapses;       // if a page shows them
+  Progression m_progression;                    // if it is written
   Phase_seconds m_seconds;
   std::vector<double> m_seconds_of_levels; // of all reductions so far
   bool m_is_stop_told = false;

@@ -60,15 +60,15 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   const std::size_t poses = m_prepared.soup.poses.size();
   m_guarded_poses =
       key_poses(m_prepared.soup, request.are_key_poses_chosen ? number_of_key_poses(poses) : poses);
+  std::optional<Missed_target> missed_target;
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);
-  Missed_target missed_target(request.complete_options());
+  else
+    missed_target.emplace(request.complete_options());
   do {
-    Simplify_options options = missed_target.options();
-    if (m_error_search) {
+    Simplify_options options = missed_target ? missed_target->options() : request.complete_options();
+    if (m_error_search)
       options.max_error = m_error_search->max_error();
-      options.remembered_refusals.reset(); // of reductions with another error
-    }
     if (m_guarded_poses.size() < poses)
       options.guarded_poses = m_guarded_poses;
     std::vector<Soup_collapse> collapses;
@@ -79,7 +79,8 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       results.push_back(simplify_soup(m_prepared, options, request.intent));
     else
       results = simplify_lods(m_prepared, options, request.lods, request.intent);
-    missed_target.complete(results);
+    if (missed_target)
+      missed_target->complete(results);
     take(std::move(results));
     if (request.is_log_wanted) {
       std::vector<const Simplified_soup*> all;
@@ -125,7 +126,8 @@ void Reduction::take(std::vector<Simplified_soup> results)
 
 // As in the program: guards the poses in which a result is refused or too far off, or chooses another error.
 // Where a target was missed, asks for faces that keep the shape.
-bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target)
+bool Reduction::is_to_be_repeated(const Reduction_request& request,
+                                  std::optional<Missed_target>& missed_target)
 {
   const auto is_stopped = [](const Level& level) { return level.result.report.is_stopped; };
   if (std::any_of(m_levels.begin(), m_levels.end(), is_stopped))
@@ -138,11 +140,11 @@ bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_targe
   }
   if (are_poses_added || !are_all_accepted)
     return are_poses_added;
-  if (!m_error_search) {
+  if (missed_target) {
     std::vector<Missed_target::Judged> judged;
     for (const Level& level : m_levels)
       judged.push_back({level.result, level.verification.distances->original_to_result});
-    return missed_target.advance(judged);
+    return missed_target->advance(judged);
   }
   std::vector<Bounds_over_poses> largest;
   for (const Level& level : m_levels)

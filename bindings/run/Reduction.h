@@ -71,7 +71,7 @@ private:
   };
 
   void take(std::vector<Simplified_soup> results);
-  bool is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target);
+  bool is_to_be_repeated(const Reduction_request& request, std::optional<Missed_target>& missed_target);
 
   std::vector<Index> m_numbers;                // in the input, of the triangles that are not dropped
   std::vector<Index_triple> m_input_triangles; // these
