@@ -120,10 +120,12 @@ private:
 
     void number(std::vector<Index> Level::*numbers, std::size_t box, Index number)
     {
-      if (number != 0 && (this->*numbers).empty())
-        (this->*numbers).assign(4 * quads.size(), 0);
-      if (number != 0)
-        (this->*numbers)[box] = number;
+      if (number == 0)
+        return;
+      std::vector<Index>& of_boxes = this->*numbers;
+      if (of_boxes.empty())
+        of_boxes.assign(4 * quads.size(), 0);
+      of_boxes[box] = number;
     }
   };
 
