@@ -150,6 +150,17 @@ void sort_fans(std::vector<Numbered_point>& centres, std::size_t parts, const st
   }
 }
 
+template <class Function>
+void for_each_in_parallel(std::size_t count, const Function& function)
+{
+  Cancellation_scope::check();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        function(i);
+                    });
+}
+
 } // namespace
 
 void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts)
@@ -168,42 +179,7 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   std::size_t leaf_count = 1;
   while (4 * leaf_count < triangles.size())
     leaf_count *= 2;
-  m_triangles.assign(4 * leaf_count, s_no_triangle);
-  const auto for_each_in_parallel = [&](std::size_t count, const auto& function) {
-    Cancellation_scope::check();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          function(i);
-                      });
-  };
-  {
-    std::vector<Numbered_point> centres(triangles.size());
-    for_each_in_parallel(triangles.size(), [&](std::size_t i) {
-      const auto& [a, b, c] = triangles[i];
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax({points[a][axis], points[b][axis], points[c][axis]});
-        const double middle =
-            hubs.empty() || hubs[i] == s_no_hub ? low / 2 + high / 2 : points[hubs[i]][axis];
-        centres[i].coordinates[axis] = float(in_frame(middle, axis));
-      }
-      centres[i].number = Index(i);
-    });
-    sort_by_halves(centres, leaf_count);
-    if (!hubs.empty())
-      sort_fans(
-          centres, leaf_count, hubs,
-          [&](const Numbered_point& centre) {
-            return direction_into(triangles[centre.number], points, hubs[centre.number]);
-          },
-          0, leaf_count);
-    for_each_in_parallel(leaf_count, [&](std::size_t leaf) {
-      const std::size_t first = centres.size() * leaf / leaf_count,
-                        beyond = centres.size() * (leaf + 1) / leaf_count;
-      for (std::size_t i = first; i < beyond; ++i)
-        m_triangles[4 * leaf + (i - first)] = centres[i].number;
-    });
-  }
+  put_in_order(points, triangles, hubs, leaf_count);
   std::vector<char> is_askew(m_triangles.size(), false);
   m_levels.emplace_back().quads.resize(leaf_count);
   for_each_in_parallel(leaf_count, [&](std::size_t leaf) {
@@ -233,6 +209,38 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   }
   add_capsules(points, triangles, is_askew);
   add_fans(points, triangles, hubs);
+}
+
+// Gives each triangle a box of level 0.
+void Triangle_tree::put_in_order(const std::vector<Point_3>& points,
+                                 const std::vector<Index_triple>& triangles, const std::vector<Index>& hubs,
+                                 std::size_t leaf_count)
+{
+  std::vector<Numbered_point> centres(triangles.size());
+  for_each_in_parallel(triangles.size(), [&](std::size_t i) {
+    const auto& [a, b, c] = triangles[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({points[a][axis], points[b][axis], points[c][axis]});
+      const double middle = hubs.empty() || hubs[i] == s_no_hub ? low / 2 + high / 2 : points[hubs[i]][axis];
+      centres[i].coordinates[axis] = float(in_frame(middle, axis));
+    }
+    centres[i].number = Index(i);
+  });
+  sort_by_halves(centres, leaf_count);
+  if (!hubs.empty())
+    sort_fans(
+        centres, leaf_count, hubs,
+        [&](const Numbered_point& centre) {
+          return direction_into(triangles[centre.number], points, hubs[centre.number]);
+        },
+        0, leaf_count);
+  m_triangles.assign(4 * leaf_count, s_no_triangle);
+  for_each_in_parallel(leaf_count, [&](std::size_t leaf) {
+    const std::size_t first = centres.size() * leaf / leaf_count,
+                      beyond = centres.size() * (leaf + 1) / leaf_count;
+    for (std::size_t i = first; i < beyond; ++i)
+      m_triangles[4 * leaf + (i - first)] = centres[i].number;
+  });
 }
 
 // In plain loops, of which compilers make vector instructions.

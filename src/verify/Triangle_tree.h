@@ -189,6 +189,8 @@ private:
   bool are_capsules_apart(const Level& level, std::size_t a, std::size_t b) const;
   bool are_in_fan_apart(Index a, Index b) const;
 
+  void put_in_order(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
+                    const std::vector<Index>& hubs, std::size_t leaf_count);
   void add_capsules(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
                     const std::vector<char>& is_askew);
   void add_fans(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
