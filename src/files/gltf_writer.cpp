@@ -249,12 +249,15 @@ private:
     return result;
   }
 
-  void put_vertices()
+  using Vertices = std::vector<Vertices_by_normal::Vertex>;
+
+  // Numbers the vertices in each instance, and returns those of each that is written.
+  std::vector<Vertices> vertices_of_instances()
   {
     std::vector<char> is_instance_put(m_scene.instances.size(), false);
     for (const Gltf_scene::Part& part : m_scene.parts)
       is_instance_put[part.instance] |= is_put(part);
-    std::vector<std::vector<Vertices_by_normal::Vertex>> vertices(m_scene.instances.size());
+    std::vector<Vertices> vertices(m_scene.instances.size());
     std::vector<Index> order = vertices_in_order();
     std::stable_sort(order.begin(), order.end(),
                      [this](Index a, Index b) { return coarsest(a) > coarsest(b); });
@@ -262,67 +265,77 @@ private:
     for (const Index number : order) {
       const Vertices_by_normal::Vertex& v = m_split.vertices[number];
       const std::size_t instance = m_scene.instance_of(m_soup.scene_vertices[v.vertex]);
-      auto& of_instance = vertices[instance];
-      m_numbers[number] = Index(of_instance.size());
+      m_numbers[number] = Index(vertices[instance].size());
       if (is_instance_put[instance])
-        of_instance.push_back(v);
+        vertices[instance].push_back(v);
     }
-    m_attributes.resize(m_scene.instances.size());
-    m_targets.resize(m_scene.instances.size());
-    m_sizes.resize(m_scene.instances.size());
-    m_compressible.resize(m_scene.instances.size());
+    return vertices;
+  }
+
+  void put_vertices()
+  {
+    const std::vector<Vertices> vertices = vertices_of_instances();
+    m_attributes.resize(vertices.size());
+    m_targets.resize(vertices.size());
+    m_sizes.resize(vertices.size());
+    m_compressible.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       m_sizes[i] = vertices[i].size();
-      if (vertices[i].empty())
-        continue;
-      const Gltf_scene::Instance& instance = m_scene.instances[i];
-      if (m_sizes[i] > block(instance).size)
-        note("vertices beyond those of the input, because new normals differ on faces that had one in common",
-             m_sizes[i] - block(instance).size);
-      const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = column.without_rows();
-        left.rows.reserve(vertices[i].size() * column.row_size);
-        Cancellation_poll poll;
-        for (const Vertices_by_normal::Vertex& v : vertices[i]) {
-          poll();
-          left.rows += bytes_of(v);
-        }
-        if (std::optional<Column> quantised = quantised_again(left))
-          left = std::move(*quantised);
-        else if (left.quantised_accessor)
-          note("attributes held as floats, because a new value is none of the whole numbers of the input");
-        if (left.compression) { // is put with the triangles
-          m_compressible[i].push_back(std::move(left));
-          return std::size_t(0);
-        }
-        return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices, i);
-      };
-      const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
-        return column.row(m_soup.scene_vertices[v.vertex] - instance.first);
-      };
-      const bool has_normals = !m_soup.normals.empty() && block(instance).normals();
-      const auto put_rows = [&](const Column& column, bool is_of_target) {
-        const bool is_of_normals = has_normals && (column.name == "NORMAL" || column.name == "TANGENT");
-        return put(column, [&](const Vertices_by_normal::Vertex& v) {
-          return !is_of_normals || v.normal == m_normals.missing
-                     ? std::string(row_of(column, v))
-                     : m_local_normals.bytes_of(column, is_of_target, m_soup.scene_vertices[v.vertex],
-                                                m_normals.values[v.normal]);
-        });
-      };
-      for (const Column& column : block(instance).attributes)
-        if (&column == &block(instance).attributes.front())
-          m_attributes[i][column.name] =
-              put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
-        else if (is_dropped(column))
-          m_attributes[i][column.name] = nullptr;
-        else
-          m_attributes[i][column.name] = put_rows(column, false);
-      for (const std::vector<Column>& target : block(instance).targets) {
-        Json& accessors = m_targets[i].emplace_back(Json::object());
-        for (const Column& column : target)
-          accessors[column.name] = is_dropped(column) ? Json() : Json(put_rows(column, true));
+      if (!vertices[i].empty())
+        put_vertices(i, vertices[i]);
+    }
+  }
+
+  // Puts the vertices of an instance.
+  void put_vertices(std::size_t i, const Vertices& vertices)
+  {
+    const Gltf_scene::Instance& instance = m_scene.instances[i];
+    if (m_sizes[i] > block(instance).size)
+      note("vertices beyond those of the input, because new normals differ on faces that had one in common",
+           m_sizes[i] - block(instance).size);
+    const auto put = [&](const Column& column, const auto& bytes_of) {
+      Column left = column.without_rows();
+      left.rows.reserve(vertices.size() * column.row_size);
+      Cancellation_poll poll;
+      for (const Vertices_by_normal::Vertex& v : vertices) {
+        poll();
+        left.rows += bytes_of(v);
       }
+      if (std::optional<Column> quantised = quantised_again(left))
+        left = std::move(*quantised);
+      else if (left.quantised_accessor)
+        note("attributes held as floats, because a new value is none of the whole numbers of the input");
+      if (left.compression) { // is put with the triangles
+        m_compressible[i].push_back(std::move(left));
+        return std::size_t(0);
+      }
+      return m_output.put_accessor(left, vertices.size(), Gltf_output::Target::vertices, i);
+    };
+    const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
+      return column.row(m_soup.scene_vertices[v.vertex] - instance.first);
+    };
+    const bool has_normals = !m_soup.normals.empty() && block(instance).normals();
+    const auto put_rows = [&](const Column& column, bool is_of_target) {
+      const bool is_of_normals = has_normals && (column.name == "NORMAL" || column.name == "TANGENT");
+      return put(column, [&](const Vertices_by_normal::Vertex& v) {
+        return !is_of_normals || v.normal == m_normals.missing
+                   ? std::string(row_of(column, v))
+                   : m_local_normals.bytes_of(column, is_of_target, m_soup.scene_vertices[v.vertex],
+                                              m_normals.values[v.normal]);
+      });
+    };
+    for (const Column& column : block(instance).attributes)
+      if (&column == &block(instance).attributes.front())
+        m_attributes[i][column.name] =
+            put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
+      else if (is_dropped(column))
+        m_attributes[i][column.name] = nullptr;
+      else
+        m_attributes[i][column.name] = put_rows(column, false);
+    for (const std::vector<Column>& target : block(instance).targets) {
+      Json& accessors = m_targets[i].emplace_back(Json::object());
+      for (const Column& column : target)
+        accessors[column.name] = is_dropped(column) ? Json() : Json(put_rows(column, true));
     }
   }
 
