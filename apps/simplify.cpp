@@ -126,9 +126,9 @@ private:
     return m_missed_target->advance(judged);
   }
 
-  std::vector<Level> reduce()
+  // Returns the options of the next reduction, but for what is told of its collapses.
+  Simplify_options next_options()
   {
-    m_bar.begin("sewing and indexing");
     Simplify_options options = m_missed_target ? m_missed_target->options() : m_request.options;
     options.placement = placement_for(m_request, m_input.prepared.soup);
     if (m_error_search)
@@ -136,9 +136,6 @@ private:
     if (m_guarded_poses.size() < m_input.prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
-    m_log.str({});
-    m_collapses.clear();
-    m_progression = {};
     if (!is_gltf(output_format(m_request)))
       options.instances = Instances::apart;
     options.is_history_kept = !m_request.html.empty();
@@ -152,6 +149,16 @@ private:
             "stopping: what was reached is judged and written next; interrupt again to end at once");
       return true;
     };
+    return options;
+  }
+
+  std::vector<Level> reduce()
+  {
+    m_bar.begin("sewing and indexing");
+    Simplify_options options = next_options();
+    m_log.str({});
+    m_collapses.clear();
+    m_progression = {};
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
       Log_header header = m_input.log_header;
