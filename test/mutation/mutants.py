@@ -352,6 +352,11 @@ group("src/soup/fit_texture.cpp", ("fit_texture_test",),
       ("if (is_within(uv))", "if (true)", "a fitted texture leaves the image"),
       ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
       ("<= m_size[i]", "<= 1e300", "a texture is fitted to what lies beyond a cut"))
+group("src/files/triangulate_polygon.cpp", ("mesh_files_content_test",),
+      ("(is_in(m_points[middle]) ||", "(", "a corner in the middle of others obstructs no ear"),
+      ("b.y() > a.y() ? box.xmin() : box.xmax()", "b.y() > a.y() ? box.xmax() : box.xmin()",
+       "corners obstruct no ear where some of those around them are beside it"),
+      ("const bool is_left = inside == CGAL::LEFT_TURN;", "const bool is_left = true;", "a polygon that turns right has no ears"))
 group("src/files/Polygon_starts.h", ("polygons_test",),
       ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
 group("src/files/Written_faces.cpp", ("polygons_test",),
@@ -668,7 +673,7 @@ group(
     ("} else if (side < sewing.mate(side))", "} else if (false)", "cells know no lines"),
     ("if (rule.is_line_at_target(originals[side]))", "if (false)", "cells know no spokes"),
     ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
-    ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
+    ("is_locked.push_back(vertices_at[position] > 1);", "is_locked.push_back(vertices_at[position] > 2);", "pairs of twins move"),
     ("is_locked[v] |= is_in_frozen_face[v];", "", "faces that offend move"),
 )
 group(
