@@ -218,6 +218,17 @@ void print_normals(std::ostream& stream, Normals_choice choice, Normals_treatmen
               "all)";
 }
 
+// Says what a target has more than `--faces`: that is of faces in no part that stays or has a ratio of its
+// own.
+std::string what_is_beside_faces(const Simplify_request& request, const Simplify_report& done)
+{
+  const std::optional<std::size_t>& faces = request.options.faces;
+  return faces && done.faces_target > *faces
+             ? " (--faces " + std::to_string(*faces) + ", and " + with_commas(done.faces_target - *faces) +
+                   " of other parts)"
+             : "";
+}
+
 // Says how far the mesh was reduced.
 void print_reach(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                  const Level& level)
@@ -229,7 +240,7 @@ void print_reach(std::ostream& stream, const Simplify_request& request, const Pr
          << with_digits(level.seconds) << " s: ";
   if (request.options.ratio || request.options.faces || !request.lods.empty() ||
       !request.intent.ratios.empty())
-    stream << "target " << with_commas(done.faces_target)
+    stream << "target " << with_commas(done.faces_target) << what_is_beside_faces(request, done)
            << (done.is_reached() ? " reached"
                : done.is_stopped ? " not reached: interrupted"
                                  : " not reached");

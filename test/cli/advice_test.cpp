@@ -487,7 +487,10 @@ TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
     const std::size_t left = within_reach - fixed;
     EXPECT_LE(output - fixed, left + (left + 9) / 10);
     EXPECT_GT(output, within_reach);
-    run(option, {"--faces", summary.substr(begin, end - begin)});
+    const std::string faces = summary.substr(begin, end - begin);
+    const std::string reached = run(option, {"--faces", faces});
+    const std::string beside = " (--faces " + faces + ", and 1,000 of other parts) reached";
+    EXPECT_EQ(reached.find(beside) != std::string::npos, option == "--keep") << reached;
     EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
     EXPECT_EQ(json().at("faces").at("output"), within_reach);
     EXPECT_EQ(run(option, {"--error", "0.01"}).find("\nkept: "), std::string::npos) << "there is no target";
