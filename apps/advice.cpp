@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -79,14 +80,12 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
   case Hindrance::drift:
     return "--border-drift " +
            with_digits(options.max_border_drift > 0 ? 5 * options.max_border_drift : 0.01);
-  case Hindrance::gap:
-    return request.open_seams == Open_seams::hold ? "--weld auto or none" : "";
   case Hindrance::aspect_ratio:
     return options.min_aspect_ratio > 0 ? "--aspect-ratio 0" : "";
   case Hindrance::normal_change:
-    return options.max_normal_change < 90    ? "--normal-change 90"
-           : options.max_normal_change < 180 ? "--normal-change 180"
-                                             : "";
+    return options.max_normal_change < Simplify_options().max_normal_change
+               ? "--normal-change " + with_digits(Simplify_options().max_normal_change)
+               : ""; // more lets hardly a face go, as the error holds nearly all that turns more
   case Hindrance::error:
     return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
   case Hindrance::clearance:
@@ -128,81 +127,158 @@ std::string cost_of_remedy(Hindrance reason, const Simplified_soup& reduced)
   return reason == Hindrance::error ? ", which costs shape" : "";
 }
 
-/// Options that are named to a user whose target was missed.
-struct Remedies
+/// Estimates how many faces go, of parts above their target, when edges that are held no longer are: as large
+/// a share as of the edges. Reductions end at their target, so a little more than it takes is enough.
+class Estimate
 {
-  std::string text;      // empty when there is none
-  std::size_t edges = 0; // that are held by the reasons against which they are
-  bool let_seams_gape = false;
+public:
+  explicit Estimate(const Simplify_report& report)
+      : m_edges(double(report.hindrances.total() - report.hindrances[Hindrance::target])),
+        m_has_target(report.faces_target > 0)
+  {
+    for (const Simplify_report::Share& share : report.shares) {
+      const std::size_t left = share.within_reach > 0 ? share.within_reach : share.output;
+      m_left += left;
+      if (left > share.target) {
+        m_movable += left - share.fixed;
+        m_to_go += left - share.target;
+      }
+    }
+  }
+
+  /// Of the faces to go, the share that does; at most what surely reaches the target.
+  double gain(double edges) const
+  {
+    return (std::min)(s_surely, edges * double(m_movable) / (m_edges * double(m_to_go)));
+  }
+
+  static bool reaches(double gain) { return gain >= s_surely; }
+
+  /// Says how far it goes, in brackets; empty where there is no target, as with `--error` alone.
+  std::string text(double gain, const std::string& what = "") const
+  {
+    if (!m_has_target)
+      return "";
+    if (reaches(gain))
+      return " (" + what + "probably to the target)";
+    const double left = (std::max)(1., double(m_left) - (std::min)(gain, 1.) * double(m_to_go));
+    const double digits = std::floor(std::log10((std::min)(left, double(m_to_go)))) - 1;
+    const double unit = std::pow(10, (std::max)(0., digits));
+    return " (" + what + "to about " + counted(std::size_t(std::round(left / unit) * unit), "face") + ')';
+  }
+
+private:
+  static constexpr double s_surely = 1.25;
+
+  double m_edges;
+  bool m_has_target;
+  std::size_t m_left = 0, m_movable = 0, m_to_go = 0;
 };
 
-/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
-/// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
-/// one of them lets go may be held by the other.
-Remedies remedies(const std::vector<Hindrances::Description>& all, const Simplify_request& request,
-                  const Simplified_soup& reduced)
+/// What is named to a user whose target was missed: options, and what they are expected to gain.
+struct Advice
 {
-  const Hindrances& hindrances = reduced.report.hindrances;
-  std::vector<std::pair<std::string, Hindrances::Description>> options;
-  const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
-  for (const Hindrances::Description& description : all) {
-    const std::string option = remedy(description.reason, request);
-    if (option.empty() || 10 * hindrances[description.reason] < total)
-      continue;
-    if (!options.empty() && 2 * hindrances[description.reason] < hindrances[options[0].second.reason])
-      break;
-    options.emplace_back(option, description);
-    if (options.size() == 2)
-      break;
+  double gain = 0; // as `Estimate::gain`
+  std::string text;
+};
+
+constexpr double least_gain = 0.1;
+
+/// Returns how many edges an option lets go that takes a reason away: later rules hold half of what those of
+/// borders and shape let go, and three quarters of what drifts. An error five times as large needs a fifth of
+/// the faces, and half of what turns too far goes with it.
+double edges_let_go(Hindrance reason, const Hindrances& hindrances)
+{
+  const double edges = double(hindrances[reason]);
+  switch (reason) {
+  case Hindrance::border_turn:
+  case Hindrance::seam_turn:
+  case Hindrance::gap:
+  case Hindrance::aspect_ratio:
+  case Hindrance::normal_change:
+    return edges / 2;
+  case Hindrance::drift:
+    return edges / 4;
+  case Hindrance::error:
+    return 0.8 * (edges + double(hindrances[Hindrance::normal_change]) / 2);
+  default:
+    return edges;
   }
-  Remedies result;
-  std::string cost;
-  for (const auto& [option, description] : options) {
-    const bool is_clear = options.size() == 1 && description.reason == all[0].reason;
-    result.text += (result.text.empty() ? ""
-                    : cost.empty()      ? " and "
-                                        : ", and ") +
-                   option + (is_clear ? "" : std::string(" against ") + description.name);
-    cost = cost_of_remedy(description.reason, reduced);
-    result.text += cost;
-    result.edges += hindrances[description.reason];
-    result.let_seams_gape |= description.reason == Hindrance::gap;
+}
+
+/// Names the option that gains most, and the next if it gains at least half as much and the first is not
+/// expected to be enough. Of those that are, the one that costs least is named.
+Advice options_against(const std::vector<Hindrances::Description>& all, const Simplify_request& request,
+                       const Simplified_soup& reduced, const Estimate& estimate)
+{
+  struct Remedy
+  {
+    double edges;
+    bool costs_shape;
+    std::string option;
+    Hindrances::Description description;
+  };
+  const Hindrances& hindrances = reduced.report.hindrances;
+  std::vector<Remedy> remedies;
+  for (const Hindrances::Description& description : all) {
+    const double edges = edges_let_go(description.reason, hindrances);
+    if (const std::string option = remedy(description.reason, request);
+        !option.empty() && estimate.gain(edges) >= least_gain)
+      remedies.push_back({edges, description.reason == Hindrance::error, option, description});
+  }
+  std::stable_sort(remedies.begin(), remedies.end(), [&](const Remedy& a, const Remedy& b) {
+    return std::pair(-estimate.gain(a.edges), a.costs_shape) <
+           std::pair(-estimate.gain(b.edges), b.costs_shape);
+  });
+  if (remedies.empty())
+    return {};
+  const auto named = [&](const Remedy& remedy, bool is_clear) {
+    return remedy.option + (is_clear ? "" : std::string(" against ") + remedy.description.name) +
+           cost_of_remedy(remedy.description.reason, reduced);
+  };
+  const Remedy& first = remedies[0];
+  const double gain = estimate.gain(first.edges);
+  const std::string reached = estimate.text(gain);
+  if (remedies.size() == 1 || estimate.reaches(gain) || 2 * remedies[1].edges < first.edges)
+    return {gain, "try " + named(first, first.description.reason == all[0].reason) + reached};
+  return {gain, "try " + named(first, false) + reached + " and " + named(remedies[1], false) +
+                    estimate.text(estimate.gain(first.edges + remedies[1].edges), "both ")};
+}
+
+/// Names the attribute that makes most of the seams that nothing else makes, if they are many. Without
+/// texture, no triangle of it can turn over.
+Advice seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
+                          const Estimate& estimate)
+{
+  const std::size_t by_seams = hindrances[Hindrance::seam] + hindrances[Hindrance::texture] +
+                               hindrances[Hindrance::line_end] + hindrances[Hindrance::seam_turn];
+  Advice result;
+  for (const auto& [attribute, count] : seams_of_attributes(prepared)) {
+    const double gain = estimate.gain(double((std::min)(count, by_seams)) +
+                                      (attribute == "texture" ? double(hindrances[Hindrance::uv]) : 0));
+    const std::string name = name_to_drop(attribute);
+    if (gain > result.gain && gain >= least_gain)
+      result = {gain, counted(count, "edge") + " of the input " + (count == 1 ? "is a seam" : "are seams") +
+                          " because of " + attribute + " and nothing else: " +
+                          (name.empty() ? "leave it out of the file"
+                                        : "--drop-attribute " + name + " lets them go") +
+                          estimate.text(gain) + ", if nobody needs it"};
   }
   return result;
 }
 
-/// Names the attribute that makes most of the seams that nothing else makes, if they are many. A texture is
-/// named where seams and their ends hold more edges than the options that are named are against.
-std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
-                               const Remedies& options)
-{
-  const std::size_t by_seams =
-      hindrances[Hindrance::seam] + hindrances[Hindrance::texture] + hindrances[Hindrance::line_end];
-  const bool is_texture_left = !options.text.empty() && options.edges >= by_seams;
-  std::pair<std::string, std::size_t> most;
-  for (const auto& [name, count] : seams_of_attributes(prepared))
-    if (count > most.second && !(is_texture_left && name == "texture"))
-      most = {name, count};
-  if (10 * most.second < hindrances.total())
-    return "";
-  const std::string name = name_to_drop(most.first);
-  return "; " + counted(most.second, "edge") + " of the input " +
-         (most.second == 1 ? "is a seam" : "are seams") + " because of " + most.first +
-         " and nothing else: " +
-         (name.empty() ? "leave it out of the file" : "--drop-attribute " + name + " lets them go") +
-         ", if nobody needs it";
-}
-
-/// Names what holds open seams, if that holds many edges: gaps that get no wider, and borders that drift less
-/// there.
-std::string seams_to_let_gape(const Simplify_request& request, const Prepared_soup& prepared,
-                              const Hindrances& hindrances)
+/// Names what holds open seams: gaps that get no wider, and borders that drift less there.
+Advice seams_to_let_gape(const Simplify_request& request, const Prepared_soup& prepared,
+                         const Hindrances& hindrances, const Estimate& estimate)
 {
   const std::size_t held = hindrances[Hindrance::gap] + hindrances[Hindrance::drift];
-  if (request.open_seams != Open_seams::hold || prepared.facing.empty() || 10 * held < hindrances.total())
-    return "";
-  return "; " + with_commas(held) +
-         " are held so that seams that stand open get hardly wider: --weld none lets them go";
+  const double gain =
+      estimate.gain(edges_let_go(Hindrance::gap, hindrances) + double(hindrances[Hindrance::drift]));
+  if (request.open_seams != Open_seams::hold || prepared.facing.empty() || gain < least_gain)
+    return {};
+  return {gain, with_commas(held) +
+                    " are held so that seams that stand open get hardly wider: --weld none lets them go" +
+                    estimate.text(gain) + ", if they are no seams, as between strips of hair"};
 }
 
 } // namespace
@@ -214,28 +290,43 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
     return "all faces left are fixed; no option helps";
+  const std::size_t at_target = hindrances[Hindrance::target], total = hindrances.total() - at_target;
+  if (total == 0)
+    return "all edges left are held by parts at their target; no option helps";
   constexpr std::size_t least_named = 3; // and as many as make two thirds of the edges
   std::string text =
-      "of " + counted(hindrances.total(), "edge") + " left" +
+      "of " + counted(total, "edge") + " left" + (at_target > 0 ? " in parts above their target" : "") +
       (report.faces_within_reach > 0 ? " at " + counted(report.faces_within_reach, "face") : "") + ", ";
-  const std::vector<Hindrances::Description> all = reasons(hindrances);
-  std::size_t others = hindrances.total();
-  for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > hindrances.total()); ++i) {
+  std::vector<Hindrances::Description> all = reasons(hindrances);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const auto& description) { return description.reason == Hindrance::target; }),
+            all.end());
+  std::size_t others = total;
+  for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > total); ++i) {
     const std::size_t count = hindrances[all[i].reason];
-    text += (i == 0 ? "" : ", ") + (count == hindrances.total() ? "all" : with_commas(count)) + " by " +
-            all[i].name;
+    text += (i == 0 ? "" : ", ") + (count == total ? "all" : with_commas(count)) + " by " + all[i].name;
     others -= count;
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  const Remedies options = remedies(all, request, result);
-  const std::string seams = seams_to_leave_out(prepared, hindrances, options),
-                    gaping = options.let_seams_gape ? "" : seams_to_let_gape(request, prepared, hindrances);
-  if (!options.text.empty())
-    text += "; try " + options.text;
-  else if (seams.empty() && gaping.empty())
+  const Estimate estimate(report);
+  std::vector<Advice> advice{seams_to_let_gape(request, prepared, hindrances, estimate),
+                             options_against(all, request, result, estimate)};
+  const auto gains_less = [](const Advice& a, const Advice& b) { return a.gain < b.gain; };
+  // Whoever leaves out an attribute loses more than shape, so it has to gain more, and twice that to come
+  // first.
+  Advice leaving_out = seams_to_leave_out(prepared, hindrances, estimate);
+  if (gains_less(*std::max_element(advice.begin(), advice.end(), gains_less), leaving_out)) {
+    leaving_out.gain /= 2;
+    advice.push_back(leaving_out);
+  }
+  std::stable_sort(advice.begin(), advice.end(),
+                   [&](const Advice& a, const Advice& b) { return gains_less(b, a); });
+  if (advice[0].text.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
-  return text + seams + gaping;
+  for (const Advice& piece : advice)
+    text += (piece.text.empty() ? "" : "; ") + piece.text;
+  return text;
 }
 
 std::string most_frequent_reason(const Hindrances& hindrances)
