@@ -201,8 +201,9 @@ Verdict judge_progressive_file(const World_run& run)
     return std::nullopt;
   const bool with_normals = run.are_normals_kept();
   // Tangents turn with normals. The reader leaves them to the scene where it joins vertices that differ in
-  // them, and which it joins depends on their order where normals are nearly equal.
-  const bool with_tangents = with_normals && tangents_of(*run.last_level) && tangents_of(run.read_back);
+  // them, and which it joins, and whose tangents stay, depends on their order where normals are nearly equal.
+  const bool with_tangents = with_normals && tangents_of(*run.last_level) && tangents_of(run.read_back) &&
+                             run.last_level->points.size() == run.read_back.points.size();
   if (sorted_triangles(*run.last_level, with_normals, with_tangents) ==
       sorted_triangles(run.read_back, with_normals, with_tangents))
     return std::nullopt;
