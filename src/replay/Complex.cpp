@@ -251,7 +251,7 @@ Index_triple Complex::positions_left(Index face) const
 }
 
 // Whether the faces for which f and g stand differ at each end of their common edge, one by one. Both ends
-// count where these have other vertices, or are not as many or run other ways.
+// count where these are not as many or run other ways.
 std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index to) const
 {
   const std::vector<Ply>&of_f = plies(f), &of_g = plies(g);
@@ -266,9 +266,7 @@ std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index
       const Index position = end == 0 ? from : to;
       const Index a = (i == 0 ? m_faces[f].corners : of_f[i].corners)[slot(f, position)];
       const Index b = (i == 0 ? m_faces[g].corners : of_g[i].corners)[slot(g, position)];
-      if (vertex_of(a) != vertex_of(b))
-        return {true, true};
-      result[end] = result[end] || have_other_values(a, b);
+      result[end] = result[end] || vertex_of(a) != vertex_of(b) || have_other_values(a, b);
     }
   }
   return result;
@@ -276,7 +274,6 @@ std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index
 
 void Complex::find_seams(const std::vector<const Attribute*>& of_regions)
 {
-  constexpr std::size_t least = 3; // edges at one position that are seams there alone, so that they stay so
   m_has_seams = true;
   std::vector<Side> inner; // sides of two faces
   Cancellation_poll poll;
@@ -298,19 +295,6 @@ void Complex::find_seams(const std::vector<const Attribute*>& of_regions)
       }
     }
   mark_regions(inner, of_regions);
-  std::unordered_map<Index, std::size_t> counts; // of edges that are seams at one end only, by this position
-  const auto is_one_ended = [](const std::array<bool, 2>& ends) { return ends[0] != ends[1]; };
-  const auto one_end = [&](const Side& side) {
-    return m_faces[side.face]
-        .positions[m_faces[side.face].is_seam[side.place][0] ? side.place : next(side.place)];
-  };
-  for (const Side& side : inner)
-    if (side.face < side.other && is_one_ended(m_faces[side.face].is_seam[side.place]))
-      ++counts[one_end(side)];
-  for (const Side& side : inner)
-    if (auto& ends = m_faces[side.face].is_seam[side.place];
-        is_one_ended(ends) && counts[one_end(side)] < least)
-      ends = {true, true};
 }
 
 // Marks the edges across which one of these attributes of triangles changes.
@@ -440,11 +424,12 @@ void Complex::carry_passed(Index removed, Index kept, const std::array<Coordinat
     m_passed.erase(found);
   };
   std::vector<Coordinates> along;
-  bool is_along_line = false;
+  bool is_along_line = false, is_line_at_kept = false;
   for (const Edge& edge : edges)
     if (edge.neighbour == kept && edge.is_line()) {
       is_along_line = true;
       along.push_back(before[0]);
+      is_line_at_kept = edge.is_line_beyond();
     }
   take(removed, kept, along);
   if (is_along_line && before[1] != m_points[kept])
@@ -452,14 +437,15 @@ void Complex::carry_passed(Index removed, Index kept, const std::array<Coordinat
       if (edge.neighbour != removed && edge.is_line())
         m_passed[std::minmax(kept, edge.neighbour)].push_back(before[1]);
   for (const Edge& edge : edges) {
-    if (edge.neighbour == kept || !edge.is_line())
+    if (edge.neighbour == kept || !(edge.is_line() || edge.is_line_beyond()))
       continue;
     std::vector<Coordinates> points;
     take(removed, edge.neighbour, points);
     take(kept, edge.neighbour, points);
-    if (is_along_line)
+    if (is_along_line && edge.is_line())
       points.insert(points.end(), along.begin(), along.end());
-    if (!points.empty() && edge.is_line_beyond()) // otherwise the line ends at `kept` now
+    if (!points.empty() &&
+        (edge.is_line_beyond() || is_line_at_kept)) // otherwise the line ends at `kept` now
       m_passed[std::minmax(kept, edge.neighbour)] = std::move(points);
   }
 }

@@ -106,7 +106,7 @@ public:
   Index_triple in_order_of_soup(Index face, Index_triple of_face) const;
 
   /// Marks the edges across which a vertex number, a label, a value of the soup's corners, or an attribute
-  /// `of_regions` changes; of three or more at one position that change there alone, only this end.
+  /// `of_regions` changes; where corners change at one end only, this end alone.
   void find_seams(const std::vector<const Attribute*>& of_regions);
   bool has_seams() const { return m_has_seams; }
 

@@ -143,11 +143,27 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   const bool ends_at_other = std::any_of(lines.begin(), lines.end(), [&](const Complex::Edge& edge) {
     return edge.neighbour == other && !edge.is_line() && edge.is_line_beyond();
   });
-  lines.erase(
-      std::remove_if(lines.begin(), lines.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
-      lines.end());
-  if (lines.empty())
-    return ends_at_other ? std::optional(Violation_kind::line) : std::nullopt;
+  const auto is_far = [&](const Coordinates& q, double limit, const Coordinates& u) {
+    return distance_to_segment(scaled(q), u, scaled(place)) >
+           (limit * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
+  };
+  const auto drifts_within = [&](double limit, Index neighbour, const Coordinates& u) {
+    const auto* passed = complex.passed(mover, neighbour);
+    return !passed || std::none_of(passed->begin(), passed->end(),
+                                   [&](const Coordinates& q) { return is_far(q, limit, u); });
+  };
+  const auto others = std::stable_partition(lines.begin(), lines.end(),
+                                            [](const Complex::Edge& edge) { return edge.is_line(); });
+  if (others == lines.begin()) {
+    if (ends_at_other)
+      return Violation_kind::line;
+    const bool does_drift = std::any_of(lines.begin(), lines.end(), [&](const Complex::Edge& edge) {
+      return m_limits.border_drift && edge.is_line_beyond() &&
+             !drifts_within(*m_limits.border_drift, edge.neighbour, scaled(complex.point(edge.neighbour)));
+    });
+    return does_drift ? std::optional(Violation_kind::border_drift) : std::nullopt;
+  }
+  lines.erase(others, lines.end());
   const auto ahead = std::find_if(lines.begin(), lines.end(),
                                   [&](const Complex::Edge& edge) { return edge.neighbour == other; });
   if (ahead == lines.end() || lines.size() != 2)
@@ -161,25 +177,18 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   const auto turns_within = [&](double degrees) {
     return is_angle_within(difference(m, u), difference(p, m), degrees);
   };
-  const auto drifts_within = [&](double limit) {
-    const double most = (limit * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
-    const auto is_far = [&](const Coordinates& q) { return distance_to_segment(scaled(q), u, p) > most; };
-    if (is_far(complex.point(mover)))
-      return false;
-    for (const Index neighbour : {behind.neighbour, other})
-      if (const auto* passed = complex.passed(mover, neighbour))
-        if (std::any_of(passed->begin(), passed->end(), is_far))
-          return false;
-    return true;
+  const auto line_drifts_within = [&](double limit) {
+    return !is_far(complex.point(mover), limit, u) && drifts_within(limit, behind.neighbour, u) &&
+           drifts_within(limit, other, u);
   };
   if (turn && !turns_within(*turn)) {
     if (!ahead->is_border())
       return Violation_kind::seam_turn;
     if (!m_limits.corner_height || !turns_within(s_turn_of_low_corner) ||
-        !drifts_within(*m_limits.corner_height))
+        !line_drifts_within(*m_limits.corner_height))
       return Violation_kind::border_turn;
   }
-  if (m_limits.border_drift && !drifts_within(*m_limits.border_drift))
+  if (m_limits.border_drift && !line_drifts_within(*m_limits.border_drift))
     return Violation_kind::border_drift;
   return std::nullopt;
 }

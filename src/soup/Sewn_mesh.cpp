@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -84,7 +83,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   find_misoriented(sewing);
   Cancellation_scope::check();
   find_lines(sewing, halfedges);
-  find_spokes(position_of);
+  find_spokes();
   find_no_strip_vertices(position_of);
 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
@@ -227,29 +226,18 @@ void Sewn_mesh::find_lines(const Sewing& sewing, const std::vector<Halfedge>& ha
   m_notes.seam_edges = m_constraints.line_edges.size();
 }
 
-// Takes the spokes out of the lines: those at a pole, where at least three edges differ at one end only, and
-// in no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
-// differ, the edge is a border of a piece. Vertices at one position count as one, as they do for a replay.
-void Sewn_mesh::find_spokes(const std::vector<Index>& position_of)
+// Takes the spokes out of the lines, across which corners differ at one end only.
+void Sewn_mesh::find_spokes()
 {
-  constexpr Index least = 3; // spokes at a pole
-  const auto differs_at_target = [this](Mesh::Edge_index e) -> std::optional<Halfedge> {
+  for (const Mesh::Edge_index e : std::exchange(m_constraints.line_edges, {})) {
     const Halfedge h = mesh().halfedge(e), other = mesh().opposite(h);
-    const Differences here = differences_at_target(h), there = differences_at_target(other);
-    if (differences(e).in_doubles || here.in_vertex || there.in_vertex || here.any() == there.any())
-      return std::nullopt;
-    return here.any() ? h : other;
-  };
-  const std::vector<Mesh::Edge_index> lines = std::exchange(m_constraints.line_edges, {});
-  std::map<Index, Index> counts; // by position
-  for (const Mesh::Edge_index e : lines)
-    if (const auto h = differs_at_target(e))
-      ++counts[position_of[mesh().target(*h)]];
-  for (const Mesh::Edge_index e : lines)
-    if (const auto h = differs_at_target(e); h && counts[position_of[mesh().target(*h)]] >= least)
-      m_constraints.spokes.push_back(*h);
-    else
+    const bool differ_here = differences_at_target(h).any(),
+               differ_there = differences_at_target(other).any();
+    if (differ_here == differ_there || differences(e).in_doubles)
       m_constraints.line_edges.push_back(e);
+    else
+      m_constraints.spokes.push_back(differ_here ? h : other);
+  }
 }
 
 void Sewn_mesh::lock(const std::vector<char>& is_locked)

@@ -118,7 +118,7 @@ private:
   void find_lines(const Sewing& sewing, const std::vector<Halfedge>& halfedges);
   void find_locked(const Sewing& sewing, const std::vector<Index>& position_of,
                    const std::vector<Index>& vertices_at);
-  void find_spokes(const std::vector<Index>& position_of);
+  void find_spokes();
   void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
                            const std::vector<Index>& vertices_at, const std::vector<Index>& position_of);
   void find_no_strip_vertices(const std::vector<Index>& position_of);

@@ -99,6 +99,14 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
   const Halfedge back = mesh.opposite(moving);
   if (has_doubles_at(corners, mesh.source(moving)) || has_doubles_at(corners, mesh.target(moving)))
     return keeps_pieces_of_doubles(corners, moving, rule);
+  // The end of a cut is on the boundary of its piece, too, and may be on a line besides.
+  const auto around = mesh.halfedges_around_target(back);
+  const bool ends_cut = std::any_of(around.begin(), around.end(), [&](Halfedge h) {
+    const Halfedge to_pole = mesh.opposite(h);
+    return rule.is_line_at_target(to_pole) && !rule.is_line_at_target(h) && is_open_at_end(to_pole);
+  });
+  if (ends_cut && (rule.is_line_at_target(back) || is_on_boundary(mesh.target(moving))))
+    return false;
   if (!rule.is_line_at_target(back))
     return true;
   const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Spokes: edges across which values differ at one end only, their pole. They bind the pole and not the ring
-// around it, and what is left of them stays a line (G4, G5, G6).
+// Spokes: edges across which corners differ at one end only, their pole. They bind the pole and not the ring
+// around it or the end of a cut, and what is left of them stays a line (G4, G5, G6).
 
 #include "soup/Working_mesh.h"
 #include "support/logged_reduction.h"
@@ -45,7 +45,7 @@ TEST(Spokes, RingsAroundPolesGoAndEveryCornerIsOneOfTheInput)
 }
 
 // A control: with a vertex for each triangle, the edges at a pole are borders of the piece, and stay.
-TEST(Spokes, AreNoneWhereVerticesDiffer)
+TEST(Spokes, StayAroundAHoleOfThePiece)
 {
   const Triangle_soup sphere = polar_sphere(32, 24, true);
   const Reduction reduction = reduce(sphere, to_ratio(0.2));
@@ -100,11 +100,12 @@ Triangle_soup disc(const std::vector<Index>& of_triangle)
 
 /// The kind of the first violation of steps, under a limit that makes lines matter; none if there is none.
 std::optional<Violation_kind> first_violation(const Triangle_soup& soup, const std::string& steps,
-                                              std::size_t count)
+                                              std::size_t count,
+                                              const std::string& limit = "limit seam_turn 180\n")
 {
   std::ostringstream log;
-  log << head_of(soup, "limit seam_turn 180\n") << steps << "result " << count << ' '
-      << soup.triangles.size() - 2 * count << " -\n";
+  log << head_of(soup, limit) << steps << "result " << count << ' ' << soup.triangles.size() - 2 * count
+      << " -\n";
   const Replay_verdict verdict = replay_text(soup, log.str());
   return verdict.is_accepted() ? std::nullopt : std::optional(verdict.violations.front().kind);
 }
@@ -119,10 +120,109 @@ TEST(Spokes, ReplayKnowsThem)
   EXPECT_EQ(first_violation(three, "c 1 2\n", 1), std::nullopt);
   EXPECT_EQ(first_violation(three, "c 1 2\nc 2 3\n", 2), Violation_kind::line) << "one line would be left";
   EXPECT_EQ(first_violation(three, "c 1 2\nc 0 2\nc 3 2\n", 3), std::nullopt) << "a line is left of the pole";
-  // Fewer than three edges that differ at one end are lines at both, and a vertex that ends one stays.
   const Triangle_soup two = disc({0, 0, 0, 1, 1, 1});
-  EXPECT_EQ(first_violation(two, "c 1 2\n", 1), Violation_kind::line);
-  EXPECT_EQ(first_violation(two, "c 2 3\n", 1), std::nullopt);
+  EXPECT_EQ(first_violation(two, "c 1 2\n", 1), std::nullopt) << "the end of a cut";
+  EXPECT_EQ(first_violation(two, "c 1 0\n", 1), Violation_kind::line);
+  EXPECT_EQ(first_violation(two, "c 0 1\n", 1), std::nullopt) << "the cut is gone";
+}
+
+/// A bumpy sheet of 24 × 24 squares with cuts of four edges into its texture, along x = 4, 8, … 20, and the
+/// positions of their ends. The vertices inside the cuts are two each if they are split.
+struct Cut_sheet
+{
+  explicit Cut_sheet(bool is_split)
+  {
+    constexpr Index size = 24;
+    const auto at = [](Index x, Index y) { return y * (size + 1) + x; };
+    soup = mapped(sheet(size, size), [](const Point_3& p) {
+      return Point_3(p.x(), p.y(), 0.4 * std::sin(0.9 * p.x()) * std::cos(0.7 * p.y()));
+    });
+    for (const Point_3& p : soup.points)
+      soup.uvs.values.push_back({p.x(), p.y()});
+    soup.uvs.of_triangle = soup.triangles;
+    for (Index x = 4; x < size; x += 4)
+      for (Index y = 2; y < size; y += 8) {
+        ends.push_back(soup.points[at(x, y)]);
+        ends.push_back(soup.points[at(x, y + 4)]);
+        for (Index inside = y + 1; inside < y + 4; ++inside)
+          cut(at(x, inside), is_split);
+      }
+  }
+
+  // Parts the corners on the right of a vertex from those on its left.
+  void cut(Index v, bool is_split)
+  {
+    const double x = soup.points[v].x();
+    soup.uvs.values.push_back({x + 100, soup.points[v].y()});
+    if (is_split)
+      soup.points.push_back(Point_3(soup.points[v]));
+    for (Index t = 0; t < soup.triangles.size(); ++t) {
+      const Index_triple corners = soup.triangles[t];
+      const bool is_right = std::any_of(corners.begin(), corners.end(),
+                                        [&](Index corner) { return soup.points[corner].x() > x; });
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_right && corners[k] == v) {
+          soup.uvs.of_triangle[t][k] = Index(soup.uvs.values.size() - 1);
+          if (is_split)
+            soup.triangles[t][k] = Index(soup.points.size() - 1);
+        }
+    }
+  }
+
+  Triangle_soup soup;
+  std::vector<Point_3> ends;
+};
+
+TEST(Spokes, EndsOfCutsMoveAndPiecesStayAsTheyAre)
+{
+  for (const bool is_split : {false, true}) {
+    const Cut_sheet cuts(is_split);
+    for (const double max_drift : {0.002, 0.01}) {
+      Simplify_options options = to_ratio(0.25);
+      options.max_border_drift = max_drift;
+      options.check_uv_orientation = false;
+      for (Simplify_options means : every_means(options, 150)) {
+        const Logged_reduction reduction = reduce_and_log(cuts.soup, means);
+        const std::vector<Point_3>& points = reduction.simplified.soup.points;
+        const auto left = std::count_if(cuts.ends.begin(), cuts.ends.end(), [&](const Point_3& end) {
+          return std::find(points.begin(), points.end(), end) != points.end();
+        });
+        EXPECT_LT(std::size_t(left), cuts.ends.size() * 2 / 3);
+        const Replay_verdict verdict = replay_text(cuts.soup, reduction.log);
+        EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+        EXPECT_TRUE(verify(reduction.simplified, prepare(cuts.soup)).accepted());
+      }
+    }
+  }
+}
+
+// As many ends of cuts as there are stay apart, and away from the border of the piece.
+TEST(Spokes, NoCutJoinsAnotherOrTheBorder)
+{
+  for (const bool is_split : {false, true}) {
+    Simplify_options options = without_limits(to_ratio(0));
+    options.check_uv_orientation = false;
+    for (const Simplify_options& means : every_means(options, 150)) {
+      const Logged_reduction reduction = reduce_and_log(Cut_sheet(is_split).soup, means);
+      const Replay_verdict verdict = replay_text(reduction.original, reduction.log);
+      EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+      EXPECT_TRUE(verify(reduction.simplified, prepare(reduction.original)).accepted());
+    }
+  }
+}
+
+// A cut along x = 2, from y = 0 to y = 4 in a sheet that is 4 × 6: what it has passed stays near it when its
+// end moves.
+TEST(Spokes, WhatACutHasPassedStaysNearIt)
+{
+  Cut_sheet cuts(false);
+  cuts.soup = with_own_uvs_at(sheet(4, 6), 0);
+  for (const Index v : {2, 7, 12, 17})
+    cuts.cut(v, false);
+  const std::string passes = "c 17 12\n", moves = passes + "c 22 21\n";
+  EXPECT_EQ(first_violation(cuts.soup, passes, 1, "limit border_drift 0.01\n"), std::nullopt);
+  EXPECT_EQ(first_violation(cuts.soup, moves, 2, "limit border_drift 0.05\n"), Violation_kind::border_drift);
+  EXPECT_EQ(first_violation(cuts.soup, moves, 2, "limit border_drift 0.07\n"), std::nullopt);
 }
 
 // Marks the lines at vertex 0 of a disc as spokes, and says whether the first may go to the second.

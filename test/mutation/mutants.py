@@ -235,6 +235,13 @@ group(
     ("(is_line_at_target(h) || takes_needed_spoke(h, *this))", "is_line_at_target(h)", "one line is left at a pole"),
     ("bool(get(state.marks, in)) && (!moves || is_line_at_target(at))", "bool(get(state.marks, in))",
      "a line along which a pole goes stays where nothing differs"),
+    ("return may_take_spokes(mover, get(state.points, target(h, state.mesh))) ? Line_refusal::none", "return true ? Line_refusal::none",
+     "what a cut has passed is far from it when its end has moved"),
+)
+group(
+    "src/soup/keeps_pieces.cpp",
+    ("spokes_test",),
+    ("  if (ends_cut && (", "  if (false && (", "a cut into a piece joins another"),
 )
 group(
     "src/soup/poles.cpp",
@@ -258,15 +265,15 @@ group(
 group(
     "src/replay/Complex.cpp",
     ("spokes_test",),
-    ("is_one_ended(ends) && counts[one_end(side)] < least", "false", "ends of cuts move in a replay"),
     ("edge.is_seam && is_line_at_kept", "edge.is_seam", "lines stay where nothing differs"),
 )
 group(
     "src/replay/limits.cpp",
     ("spokes_test",),
     ("    if (takes_needed_line(complex, removed, kept))\n      return Violation_kind::line;\n", "", "one line is left at a pole"),
-    ("return ends_at_other ? std::optional(Violation_kind::line) : std::nullopt;", "return std::nullopt;",
+    ("    if (ends_at_other)\n      return Violation_kind::line;\n", "",
      "a vertex comes along a spoke"),
+    ("return m_limits.border_drift && edge.is_line_beyond() &&", "return false && edge.is_line_beyond() &&", "what a cut has passed may be far from it"),
 )
 group(
     headers + "Surface_mesh_simplification/Border_rule.h",
@@ -856,11 +863,11 @@ group(
     ("replay_test",),
     ("if (ahead == lines.end() || lines.size() != 2)", "if (ahead == lines.end())", "corners of lines move"),
     ("!turns_within(s_turn_of_low_corner) ||", "false ||", "the sharpest corner may be low"),
-    ("!drifts_within(*m_limits.corner_height))", "false)", "corners of any height are low"),
+    ("!line_drifts_within(*m_limits.corner_height))", "false)", "corners of any height are low"),
     ("if (!m_limits.corner_height ||", "if (m_limits.corner_height ||", "no corner is low"),
     ("    if (!ahead->is_border())\n      return Violation_kind::seam_turn;", "", "corners of seams are low"),
-    ("if (is_far(complex.point(mover)))", "if (false)", "the vertex that moves may drift"),
-    ("if (std::any_of(passed->begin(), passed->end(), is_far))", "if (false)", "what was passed before may drift"),
+    ("return !is_far(complex.point(mover), limit, u) &&", "return true &&", "the vertex that moves may drift"),
+    ("return !passed ||", "return true ||", "what was passed before may drift"),
     ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),
     ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam",
      "a vertex that moves is in one fan, which has two border edges or none"),

@@ -363,8 +363,6 @@ void Judged_complex::find_seams(const Triangle_soup& own)
           pair.push_back(f);
       edges.push_back({{p, edge.neighbour}, plies(pair[0]), plies(pair[1])});
     }
-  std::map<Index, std::vector<Index>>
-      ends_alone; // by position, the other ends of lines that are so here alone
   for (const Inner_edge& edge : edges) {
     bool is_line = edge.here.size() != edge.beyond.size();
     std::set<Index> different_at;
@@ -374,8 +372,8 @@ void Judged_complex::find_seams(const Triangle_soup& own)
                 differ_in_label(own.materials, f, g);
       for (const Index end : {edge.ends.first, edge.ends.second}) {
         const Index a = corner_at(f, end), b = corner_at(g, end);
-        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3];
-        if (differ(own.uvs, a, b) || differ(own.normals, a, b))
+        if (own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] || differ(own.uvs, a, b) ||
+            differ(own.normals, a, b))
           different_at.insert(end);
       }
     }
@@ -389,7 +387,7 @@ void Judged_complex::find_seams(const Triangle_soup& own)
       add_seam(edge.ends.first, edge.ends.second);
     else if (!different_at.empty()) {
       const Index at = *different_at.begin();
-      ends_alone[at].push_back(at == edge.ends.first ? edge.ends.second : edge.ends.first);
+      m_seams.insert({at, at == edge.ends.first ? edge.ends.second : edge.ends.first});
     }
   }
   for (const Attribute& attribute : own.triangle_attributes)
@@ -398,16 +396,6 @@ void Judged_complex::find_seams(const Triangle_soup& own)
         for (std::size_t i = 0; i < std::min(edge.here.size(), edge.beyond.size()); ++i)
           if (attribute.rows[edge.here[i]] != attribute.rows[edge.beyond[i]]) // which are of one byte
             add_seam(edge.ends.first, edge.ends.second);
-  for (auto& [at, others] : ends_alone) {
-    others.erase(
-        std::remove_if(others.begin(), others.end(), [&, at = at](Index q) { return is_seam(at, q); }),
-        others.end());
-    for (const Index q : others)
-      if (others.size() >= 3)
-        m_seams.insert({at, q});
-      else
-        add_seam(at, q);
-  }
 }
 
 std::vector<std::vector<Index>> Judged_complex::fans_at(Index position) const

@@ -59,8 +59,8 @@ public:
   /// Lets a face run the other way from now on.
   void turn(Index face);
 
-  /// Lines of the soup: edges across which a number, label or value changes. Those where only values change,
-  /// and at one end, are lines there alone, if there are three or more. To be called after snaps.
+  /// Lines of the soup: edges across which a number, label or value changes. Those where only corners change,
+  /// and at one end, are lines there alone. To be called after snaps.
   /// Where pairs may descend, faces with the same three positions go with the first of them from now on.
   void find_seams(const Triangle_soup& own);
 

@@ -66,18 +66,20 @@ enum class Line_refusal : unsigned char {
 /// `Border_filter` and `Halfedge_placement` ask the rule; `Border_visitor` updates it after every collapse.
 /// Copies share one state.
 ///
-/// A *spoke* is an inner edge that is a line at one end only. So are the edges at the pole of a sphere, where
-/// each face has a texture coordinate of its own at the pole and shares those on the ring. The pole is on
-/// them; the vertices of the ring are not, and may move around it.
+/// A *spoke* is an inner edge that is a line at one end only, its pole. So is the last edge of a cut into a
+/// texture, and so are the edges at the pole of a sphere, where each face has a texture coordinate of its own
+/// at the pole and shares those on the ring. The pole is on them; the vertices at their other ends are not,
+/// and may move around it.
 ///
 /// **Guarantees** for a mesh reduced by collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along the line, to the next vertex of the same line, and only where the
 ///    line turns by at most `max_border_turn` or `max_seam_turn`, or where the corner of a border is low
-///    (`max_corner_height`). Ends of lines, vertices with more than two line edges, and vertices where a
-///    border becomes a marked line never move.
-/// 3. No collapse removes a face whose three edges are all lines. One may remove a face between two spokes,
-///    if a third line ends at the same pole. No vertex moves along a spoke to its pole.
+///    (`max_corner_height`). Ends of edges that are lines at both ends, vertices with more than two line
+///    edges, and vertices where a border becomes a marked line never move.
+/// 3. No collapse removes a face whose three edges are all lines, or two of them lines and the third a spoke.
+///    One may remove a face between two spokes, if a third line ends at the same pole. No vertex moves along
+///    a spoke to its pole.
 /// 4. Every original vertex of a line lies within `max_drift`, or within its own limit of drift, of the
 ///    segment that replaced it.
 ///
@@ -176,10 +178,14 @@ public:
     const State& state = *m_state;
     const Vertex mover = source(h, state.mesh);
     const Freedom freedom = get(state.freedoms, mover);
-    if (freedom == Freedom::free)
-      return state.may_have_spokes && (is_line_at_target(h) || takes_needed_spoke(h, *this))
-                 ? Line_refusal::line_end
-                 : Line_refusal::none;
+    if (freedom == Freedom::free) {
+      if (!state.may_have_spokes)
+        return Line_refusal::none;
+      if (is_line_at_target(h) || takes_needed_spoke(h, *this))
+        return Line_refusal::line_end;
+      return may_take_spokes(mover, get(state.points, target(h, state.mesh))) ? Line_refusal::none
+                                                                              : Line_refusal::drift;
+    }
     if (freedom == Freedom::none)
       return Line_refusal::locked;
     if (!is_line_at_target(opposite(h, state.mesh)))
@@ -207,7 +213,14 @@ public:
 
   /// Returns whether the collapse that left `kept` may have changed what `may_move` says of edges that do not
   /// end at `kept`; `reaches` says so of one such edge. See `Collapse_locality`.
-  bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
+  bool reaches_neighbours(Vertex kept) const
+  {
+    if (!is_free(kept) || !m_state->may_have_spokes)
+      return !is_free(kept);
+    const auto around = CGAL::halfedges_around_target(kept, m_state->mesh);
+    return std::any_of(around.begin(), around.end(),
+                       [this](Halfedge h) { return is_line_at_target(opposite(h, m_state->mesh)); });
+  }
   bool reaches(Vertex kept, Edge e) const
   {
     const Halfedge h = halfedge(e, m_state->mesh);
@@ -232,7 +245,8 @@ public:
     if (state.may_have_spokes && takes_needed_spoke(profile.v0_v1(), *this))
       return false;
     if (is_free(profile.v0()) && is_free(profile.v1()))
-      return true;
+      return !state.may_have_spokes || (may_take_spokes(profile.v0(), collapse.place()) &&
+                                        may_take_spokes(profile.v1(), collapse.place()));
     if (is_free(profile.v0()) || is_free(profile.v1()) || is_locked(profile.v0()) ||
         is_locked(profile.v1()) || !is_line(edge(profile.v0_v1(), state.mesh)) ||
         is_cut_off(profile.v0_v1(), *this))
@@ -262,7 +276,7 @@ public:
       const Halfedge h = halfedge(kept, line.far_end, state.mesh).first;
       put(state.marks, h, line.is_marked_far);
       put(state.marks, opposite(h, state.mesh), line.is_marked_near);
-      if (!line.passed.empty() && is_line_at_target(h))
+      if (!line.passed.empty() && (is_line_at_target(h) || is_line_at_target(opposite(h, state.mesh))))
         state.passed[edge(h, state.mesh)] = line.passed;
     }
     state.pending.reset();
@@ -357,16 +371,22 @@ private:
     return behind;
   }
 
-  // Whether lines leave both ends of the line edge `h` along the other edges of a face beside it. The
-  // collapse would remove this face, and with it a whole piece or a corner of one.
+  // Whether the other edges of a face beside the line edge `h` are lines, or one of them is and the other is
+  // a spoke. The collapse would remove this face, and with it a whole piece or a corner of one.
   template <class Lines>
   bool is_cut_off(Halfedge h, const Lines& lines) const
   {
     const TriangleMesh& mesh = m_state->mesh;
-    for (const Halfedge side : {h, opposite(h, mesh)})
-      if (!CGAL::is_border(side, mesh) && lines.is_line_at_target(opposite(next(side, mesh), mesh)) &&
-          lines.is_line_at_target(prev(side, mesh)))
+    for (const Halfedge side : {h, opposite(h, mesh)}) {
+      if (CGAL::is_border(side, mesh))
+        continue;
+      const Halfedge to_apex = next(side, mesh), from_apex = prev(side, mesh);
+      const bool is_line_at_end = lines.is_line_at_target(opposite(to_apex, mesh)),
+                 is_line_at_start = lines.is_line_at_target(from_apex);
+      if ((is_line_at_end && (is_line_at_start || lines.is_line_at_target(opposite(from_apex, mesh)))) ||
+          (is_line_at_start && lines.is_line_at_target(to_apex)))
         return true;
+    }
     return false;
   }
 
@@ -434,6 +454,27 @@ private:
     for (const Halfedge h : {behind, ahead}) {
       const auto found = state.passed.find(edge(h, state.mesh));
       if (found != state.passed.end() && !std::all_of(found->second.begin(), found->second.end(), is_near))
+        return false;
+    }
+    return true;
+  }
+
+  // Whether each original vertex that a spoke has replaced, whose pole is elsewhere, is within its limit of
+  // the spoke when its end `v` goes to `p`.
+  bool may_take_spokes(Vertex v, const Point& p) const
+  {
+    const State& state = *m_state;
+    if (state.passed.empty())
+      return true;
+    for (const Halfedge out : CGAL::halfedges_around_source(v, state.mesh)) {
+      const auto found =
+          is_line_at_target(out) ? state.passed.find(edge(out, state.mesh)) : state.passed.end();
+      if (found == state.passed.end())
+        continue;
+      const typename Geom_traits::Segment_3 segment(get(state.points, target(out, state.mesh)), p);
+      if (!std::all_of(found->second.begin(), found->second.end(), [&](const Passed& passed) {
+            return CGAL::to_double(CGAL::squared_distance(passed.point, segment)) <= passed.max_squared_drift;
+          }))
         return false;
     }
     return true;
