@@ -20,7 +20,7 @@ namespace {
 
 using Uv = std::array<double, 2>;
 
-const auto as_it_is = [](Index, const Uv& uv) { return uv; };
+const auto unrounded = [](Index, const Uv& uv) { return uv; };
 
 /// A sheet of squares with the texture coordinates (x², y).
 Triangle_soup stretched_sheet(int size)
@@ -83,7 +83,7 @@ Fan fan(int size, const Uv& uv_of_middle)
 
 Uv fitted_middle(const Fan& fan)
 {
-  return fitted_texture(fan.result, fan.triangles, fan.is_free, fan.original, as_it_is)[4];
+  return fitted_texture(fan.result, fan.triangles, fan.is_free, fan.original, unrounded)[4];
 }
 
 TEST(FitTexture, DisplacesTheTextureLessThanItsValueAtTheVertexDoes)
