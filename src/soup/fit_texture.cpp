@@ -129,31 +129,23 @@ private:
     const Triangle_finder finder(std::move(searched), of_searched);
     surface_fit::find_in_parallel(
         m_original.triangles.size(),
-        [&](Index t) {
-          return is_asked[of_original[t]] ? samples_of(t, finder, of_original[t]) : std::array<Sample, 3>{};
-        },
-        [&](const std::array<Sample, 3>& samples) {
-          for (const Sample& sample : samples)
-            if (sample.nearest)
-              add(sample, numbers[sample.nearest->triangle]);
+        [&](Index t) { return is_asked[of_original[t]] ? sample_of(t, finder, of_original[t]) : Sample(); },
+        [&](const Sample& sample) {
+          if (sample.nearest)
+            add(sample, numbers[sample.nearest->triangle]);
         });
   }
 
-  std::array<Sample, 3> samples_of(Index t, const Triangle_finder& finder, std::size_t chart) const
+  // The sample is in the middle of the triangle: one is enough where triangles of the result are larger.
+  Sample sample_of(Index t, const Triangle_finder& finder, std::size_t chart) const
   {
-    std::array<Sample, 3> samples;
-    if (!has_texture(m_original.uvs, t))
-      return samples;
+    constexpr std::array<double, 3> middle = {1. / 3, 1. / 3, 1. / 3};
     const std::array<Vector, 3> corners = scaled(m_original, t, m_exponent);
-    const std::array<Uv, 3> uvs = uvs_of(m_original, t);
-    const double weight = area(corners) / 3;
-    const Vector front = unit_normal(m_original, t);
-    for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
-      const std::array<double, 3>& weights = surface_fit::s_sample_weights[j];
-      const Vector place = surface_fit::interpolated(corners, weights);
-      samples[j] = {finder.nearest(place, chart, front), surface_fit::interpolated(uvs, weights), weight};
-    }
-    return samples;
+    const double weight = area(corners);
+    if (!has_texture(m_original.uvs, t) || !(weight > 0))
+      return {};
+    return {finder.nearest(surface_fit::interpolated(corners, middle), chart, unit_normal(m_original, t)),
+            surface_fit::interpolated(uvs_of(m_original, t), middle), weight};
   }
 
   void add(const Sample& sample, Index i)

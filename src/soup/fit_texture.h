@@ -19,7 +19,7 @@ namespace selvedge {
 /// `triangles[i]` of the original. Vertices that are `free` have one texture coordinate each, all others keep
 /// theirs. `stored(v, uv)` returns what becomes of the coordinates of vertex v when they are stored.
 ///
-/// The original is sampled at three points of every triangle. A sample counts for the triangle of the result
+/// The original is sampled in the middle of every triangle. A sample counts for the triangle of the result
 /// that is nearest, of those of the same chart (what is connected by edges at which the texture goes on) that
 /// face the same side, unless it is off there by more than that triangle is large in the texture, as beyond a
 /// cut. No triangle of the texture turns over or loses its area, decided exactly, and no coordinate leaves
