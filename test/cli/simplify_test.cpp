@@ -95,8 +95,13 @@ TEST(App_simplify, PutsVerticesToNewPlacesWhenAsked)
   options.insert(options.end(), {"--report", folder / "report.json"});
   const App_result result = run_app(options);
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("at new places with interpolated attributes\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("at new places with interpolated attributes, the texture fitted to that of the "
+                            "input\n"),
+            std::string::npos)
+      << result.out;
   const nlohmann::json report = nlohmann::json::parse(contents_of(folder / "report.json"));
+  EXPECT_GT(report["vertices"]["fitted_texture"], 0);
+  EXPECT_LE(report["vertices"]["fitted_texture"], report["vertices"]["placed"]);
   EXPECT_EQ(report["options"]["placement"], "optimal");
   const Triangle_soup before = read_mesh(in).soup, after = read_mesh(folder / "out.obj").soup;
   const std::set<Position> known = positions(before);
