@@ -135,8 +135,7 @@ std::size_t Placed_vertices::fit_texture(const std::vector<Index>& triangles,
   std::size_t count = 0;
   for (Index v = 0; v < fitted.size(); ++v)
     if (is_placed[v] && fitted[v] != m_values->uv(find(corner_of[v])->values)) {
-      stored(v, fitted[v]);
-      values[v] = &numbers[v];
+      values[v] = &numbers[v]; // as they were stored last
       ++count;
     }
   if (count > 0)

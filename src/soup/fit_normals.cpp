@@ -18,7 +18,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -90,12 +89,7 @@ public:
   }
 
 private:
-  struct Sample
-  {
-    std::optional<Triangle_finder::Nearest> nearest;
-    Vector normal{};
-    double weight = 0;
-  };
+  using Sample = surface_fit::Sample<3>;
 
   static bool has_normals(const Corner_values<3>& normals, Index triangle)
   {
@@ -270,8 +264,8 @@ private:
 
   void add(const Sample& sample, Index i)
   {
-    if (m_sides[i] != 0 && m_sides[i] * dot(m_fronts[i], sample.normal) >= s_cosine_of_sample)
-      m_moments[i].add(sample.nearest->weights, sample.normal, sample.weight);
+    if (m_sides[i] != 0 && m_sides[i] * dot(m_fronts[i], sample.value) >= s_cosine_of_sample)
+      m_moments[i].add(sample);
   }
 
   bool is_near_on_border(std::size_t wedge, const Vector& fitted) const

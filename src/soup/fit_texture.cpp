@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace selvedge {
@@ -66,12 +65,7 @@ public:
   }
 
 private:
-  struct Sample
-  {
-    std::optional<Triangle_finder::Nearest> nearest;
-    Uv uv{};
-    double weight = 0;
-  };
+  using Sample = surface_fit::Sample<2>;
 
   static bool has_texture(const Corner_values<2>& uvs, Index triangle)
   {
@@ -150,10 +144,9 @@ private:
 
   void add(const Sample& sample, Index i)
   {
-    const std::array<double, 3>& weights = sample.nearest->weights;
-    const Uv here = surface_fit::interpolated(uvs_of(m_result, i), weights);
-    if (std::hypot(sample.uv[0] - here[0], sample.uv[1] - here[1]) <= m_size[i])
-      m_moments[i].add(weights, sample.uv, sample.weight);
+    const Uv here = surface_fit::interpolated(uvs_of(m_result, i), sample.nearest->weights);
+    if (std::hypot(sample.value[0] - here[0], sample.value[1] - here[1]) <= m_size[i])
+      m_moments[i].add(sample);
   }
 
   static CGAL::Orientation orientation(const Uv& a, const Uv& b, const Uv& c)

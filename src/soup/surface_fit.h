@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SRC_SOUP_SURFACE_FIT_H
 #define SELVEDGE_SRC_SOUP_SURFACE_FIT_H
 
+#include "Triangle_finder.h"
+
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Vector_of_doubles.h>
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -87,6 +90,15 @@ void find_in_parallel(std::size_t triangles, const Find& find, const Add& add)
   }
 }
 
+/// A value of the original, and what it stands for in the result: nothing if there is no nearest triangle.
+template <std::size_t dimension>
+struct Sample
+{
+  std::optional<Triangle_finder::Nearest> nearest;
+  std::array<double, dimension> value{};
+  double weight = 0;
+};
+
 /// What the samples on a triangle come to.
 template <std::size_t dimension>
 struct Moments
@@ -95,8 +107,10 @@ struct Moments
   std::array<std::array<double, 3>, 3> products{};
   std::array<std::array<double, dimension>, 3> values{};
 
-  void add(const std::array<double, 3>& weights, const std::array<double, dimension>& value, double weight)
+  void add(const Sample<dimension>& sample)
   {
+    const auto& [nearest, value, weight] = sample;
+    const std::array<double, 3>& weights = nearest->weights;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t l = 0; l < 3; ++l)
         products[k][l] += weight * weights[k] * weights[l];
