@@ -161,7 +161,7 @@ private:
 std::map<Violation_kind, int> Mutations::counts;
 
 #ifdef NDEBUG
-constexpr int s_mutants = 75;
+constexpr int s_mutants = 40;
 #else
 constexpr int s_mutants = 20;
 #endif
