@@ -126,8 +126,8 @@ nlohmann::json levels_of_both(const Workspace& folder, const std::string& input,
 TEST(Bindings, MakeTheLevelsOfDetailThatTheProgramMakes)
 {
   const Workspace folder;
-  const std::string skirt = folder.generate("skirt", "skirt.obj", 4000),
-                    spheres = folder.generate("nested", "spheres.obj", 2000);
+  const std::string skirt = folder.generate("skirt", "skirt.obj", 1500),
+                    spheres = folder.generate("nested", "spheres.obj", 1000);
   for (const Choices& choices : {Choices{}, Choices{{"placement", "optimal"}, {"sewn", "true"}},
                                  Choices{{"cells", "true"}}, Choices{{"part_ratios", "waistband=0.8"}},
                                  Choices{{"drop_part", "waistband"}}, Choices{{"error", "0.004"}}}) {
