@@ -1670,9 +1670,9 @@ group("include/selvedge/Surface_mesh_simplification/internal/Remembered_refusals
       (" && m_words[m_place] == number", "", "other questions get the answers of the reduction before"),
       ("    m_place = 0;\n", "", "a reduction goes on where the one before ended"),
       ("(answer & 1) != 0", "false", "what only clearance refused is taken for contact"),
-      ("m_is_following && kind <= s_done", "m_is_following", "a refusal that is new is not recorded"),
-      ("    m_is_following = is_next(collapse) && m_words[m_place + 1] == s_done;\n", "", "a collapse that was not done counts as done"),
-      (" && m_words[m_place + 1] != s_done", "", "a question is taken for a collapse"),
+      ("    if (m_is_following) {\n      m_place += 2;", "    if (true) {\n      m_place += 2;", "what is new is not recorded"),
+      (" && m_words[m_place + 1] == kind", "", "a collapse that was not done counts as done"),
+      ("    add_last_accepted();\n    m_is_following", "    m_is_following", "accepted questions whose collapses are not done are forgotten"),
       ("    m_words.resize(m_place);\n", "", "what follows another question is remembered"))
 group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("shares[i].output + a_tenth(shares[i].output - shares[i].fixed)", "shares[i].output",

@@ -6,7 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -27,7 +29,7 @@ namespace internal {
 /// nothing is done because of this memory.
 ///
 /// **Complexity** O(1) for each question, blocker and collapse. Takes 8 bytes for each question and each
-/// collapse, and 4 for each blocker.
+/// collapse, except that a question whose collapse is done next takes none, and 4 for each blocker.
 class Remembered_refusals
 {
 public:
@@ -47,14 +49,16 @@ public:
     m_faces = faces;
     m_place = 0;
     m_is_following = true;
+    m_accepted.reset();
   }
 
   /// Returns the answer to the question that comes next, if it was refused. If not, the exact test must be
   /// asked, and the answer given to `add_accepted` or `add_refused`. A question has the number of a collapse.
   std::optional<Refusal> refusal(Number question)
   {
-    m_is_following = is_next(question) && m_words[m_place + 1] != s_done;
-    if (!m_is_following || m_words[m_place + 1] == s_accepted)
+    add_last_accepted();
+    m_is_following = is_next(question);
+    if (!m_is_following || m_words[m_place + 1] <= s_done)
       return {};
     const Number answer = m_words[m_place + 1];
     const auto first = m_words.begin() + std::ptrdiff_t(m_place) + 2;
@@ -63,7 +67,7 @@ public:
     return refusal;
   }
 
-  void add_accepted(Number question) { add(question, s_accepted, {}); }
+  void add_accepted(Number question) { m_accepted = question; }
   void add_refused(Number question, const Refusal& refusal)
   {
     add(question, Number(2 * (refusal.blockers.size() + 1) + refusal.is_clearance_lacking), refusal.blockers);
@@ -72,7 +76,10 @@ public:
   /// Called before each collapse that is done.
   void add_done(Number collapse)
   {
-    m_is_following = is_next(collapse) && m_words[m_place + 1] == s_done;
+    if (m_accepted == collapse)
+      m_accepted.reset();
+    else
+      add_last_accepted();
     add(collapse, s_done, {});
   }
 
@@ -84,13 +91,20 @@ private:
     return m_is_following && m_place < m_words.size() && m_words[m_place] == number;
   }
 
+  // Called when something else has come after an accepted question than its collapse.
+  void add_last_accepted()
+  {
+    if (const std::optional<Number> question = std::exchange(m_accepted, std::nullopt))
+      add(*question, s_accepted, {});
+  }
+
   void add(Number number, Number kind, const std::vector<Number>& blockers)
   {
-    if (m_is_following && kind <= s_done) {
+    m_is_following = kind <= s_done && is_next(number) && m_words[m_place + 1] == kind;
+    if (m_is_following) {
       m_place += 2;
       return;
     }
-    m_is_following = false;
     m_words.resize(m_place);
     m_words.insert(m_words.end(), {number, kind});
     m_words.insert(m_words.end(), blockers.begin(), blockers.end());
@@ -98,11 +112,13 @@ private:
   }
 
   // For each question and each collapse its number, and what it is: accepted, done, or refused, which is
-  // 2 (blockers + 1), and 1 more if only clearance was lacking. The blockers come after it.
-  std::vector<Number> m_words;
+  // 2 (blockers + 1), and 1 more if only clearance was lacking. The blockers come after it. Accepted
+  // questions are left out where their collapse comes next.
+  std::deque<Number> m_words; // in pieces, since a copy of all would be made to enlarge it
   std::size_t m_faces = 0;
   std::size_t m_place = 0; // of what comes next
   bool m_is_following = false;
+  std::optional<Number> m_accepted; // the last question, until it is known what comes after it
 };
 
 } // namespace internal
