@@ -147,7 +147,7 @@ private:
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     if (m_options.normal_weight > 0)
       measure_normals();
-    m_working.count_refusals(part_kinds(soup));
+    m_working.count_refusals();
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);
     const bool may_pairs_descend = m_prepared.may_pairs_descend();

@@ -4,6 +4,7 @@
 #include <selvedge/Parts.h>
 
 #include "Disjoint_sets.h"
+#include "selection.h"
 
 #include <selvedge/Error.h>
 
@@ -38,14 +39,6 @@ Part_kind pieces_of(const Triangle_soup& soup)
     pieces.of_triangle.push_back(number);
   }
   return pieces;
-}
-
-template <class Function>
-void for_each_label(const Triangle_soup& soup, const Function& function)
-{
-  function(Part_kind::Name::group, soup.groups);
-  function(Part_kind::Name::object, soup.objects);
-  function(Part_kind::Name::material, soup.materials);
 }
 
 /// Whether the text is the name, or fits it if this has wildcards.
@@ -99,7 +92,8 @@ const char* name(Part_kind::Name kind)
 
 std::vector<Part_kind> part_kinds(const Triangle_soup& soup)
 {
-  std::vector<Part_kind> kinds{pieces_of(soup)};
+  std::vector<Part_kind> kinds;
+  kinds.push_back(pieces_of(soup));
   for_each_label(soup, [&](Part_kind::Name kind, const Triangle_labels& labels) {
     if (!labels.empty())
       kinds.push_back({kind, labels.of_triangle, labels.names, Index(labels.names.size())});

@@ -74,12 +74,17 @@ void Working_mesh::allow_new_places(bool is_float32)
   m_rounding.emplace(soup(), m_scale, is_float32);
 }
 
-void Working_mesh::count_refusals(std::vector<Part_kind> kinds)
+void Working_mesh::count_refusals()
 {
-  m_kinds = std::move(kinds);
+  const std::vector<Part_kind> kinds = part_kinds(soup());
   m_refused.clear();
-  for (const Part_kind& kind : m_kinds)
+  for (const Part_kind& kind : kinds)
     m_refused.emplace_back(kind.count);
+  // Labels say of each triangle to which parts it belongs; and of pieces, each vertex does.
+  m_piece_of_vertex.assign(soup().points.size(), 0);
+  for (Index t = 0; t < soup().triangles.size(); ++t)
+    for (const Index v : soup().triangles[t])
+      m_piece_of_vertex[v] = kinds.front().of_triangle[t];
 }
 
 void Working_mesh::before_collapse(Halfedge moving, const Border_rule<Mesh>& rule)
@@ -141,10 +146,15 @@ internal::Optional<Point_3> Working_mesh::rounded_place(Halfedge edge, const Poi
 void Working_mesh::on_refused(Halfedge moving, const Refusals& refusals)
 {
   const Face face = mesh().face(with_face(moving));
-  if (!is_own(face))
+  if (!is_own(face) || m_refused.empty())
     return;
-  for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
-    m_refused[kind][m_kinds[kind].of_triangle[triangle(face)]] += refusals;
+  const Index t = triangle(face);
+  std::size_t kind = 0;
+  m_refused[kind][m_piece_of_vertex[soup().triangles[t].front()]] += refusals;
+  for_each_label(soup(), [&](Part_kind::Name, const Triangle_labels& labels) {
+    if (!labels.empty())
+      m_refused[++kind][labels.of_triangle[t]] += refusals;
+  });
 }
 
 void Working_mesh::on_hindered(Mesh::Edge_index e, Hindrance reason)

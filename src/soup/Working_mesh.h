@@ -74,9 +74,9 @@ public:
   }
 
   /// Starts to count refusals by the parts of the soup to which the moving vertex belongs.
-  void count_refusals(std::vector<Part_kind> kinds);
+  void count_refusals();
 
-  /// The refusals so far, for each kind and each of its parts.
+  /// The refusals so far, for each of the `part_kinds` of the soup and each of its parts.
   const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
 
   /// Sets a function that is called before each collapse, as `Simplify_options::on_collapse` is.
@@ -200,7 +200,7 @@ private:
   // What holds back the three edges of each face; empty until the reduction says so.
   std::vector<std::array<std::optional<Hindrance>, 3>> m_hindrances;
 
-  std::vector<Part_kind> m_kinds;
+  std::vector<Index> m_piece_of_vertex; // by vertex of the soup; empty until refusals are counted
   std::vector<std::vector<Refusals>> m_refused;
 };
 

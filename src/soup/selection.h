@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SOUP_SELECTION_H
 #define SELVEDGE_SOUP_SELECTION_H
 
+#include <selvedge/Parts.h>
 #include <selvedge/Triangle_soup.h>
 
 #include <array>
@@ -46,6 +47,15 @@ std::size_t count_of_used_vertices(const Triangle_soup& soup);
 
 /// Forgets the polygons with a vertex that is not at its place in `points_before`.
 void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& points_before);
+
+/// Calls function(kind, labels) with the labels that a soup may have, in the order of `part_kinds`.
+template <class Function>
+void for_each_label(const Triangle_soup& soup, const Function& function)
+{
+  function(Part_kind::Name::group, soup.groups);
+  function(Part_kind::Name::object, soup.objects);
+  function(Part_kind::Name::material, soup.materials);
+}
 
 /// Returns the number of bytes in one row of an attribute.
 std::size_t row_size(const Attribute& attribute);
