@@ -19,18 +19,16 @@ template <std::size_t dimension>
 Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& scale,
                                       const Simplify_constraints<Mesh>& constraints, double unit,
                                       const std::vector<Value>* of_vertices)
-    : m_corners(corners), m_unit(unit)
+    : Value_wedges(corners, number_wedges(corners, constraints), scale, constraints, unit, of_vertices)
 {
-  Wedge_numbers numbers = number_wedges(corners, constraints);
-  const std::vector<Mesh::Vertex_index>& vertices = numbers.vertices;
-  m_numbers = std::move(numbers.of_face);
-  m_wedges.assign(vertices.size(), {});
-  std::vector<Index> wedges_at(mesh().number_of_vertices(), 0);
-  for (const Mesh::Vertex_index v : vertices)
-    ++wedges_at[v];
-  m_is_alone.reserve(vertices.size());
-  for (const Mesh::Vertex_index v : vertices)
-    m_is_alone.push_back(wedges_at[v] == 1);
+}
+
+template <std::size_t dimension>
+Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Wedge_numbers& numbers,
+                                      const Scale& scale, const Simplify_constraints<Mesh>& constraints,
+                                      double unit, const std::vector<Value>* of_vertices)
+    : m_corners(corners), m_unit(unit), m_table(corners, numbers), m_wedges(numbers.vertices.size())
+{
   Cancellation_poll poll;
   for (const Corner_mesh::Face face : mesh().faces()) {
     poll();
@@ -45,11 +43,12 @@ Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& s
     }
     const Quadric of_face(points, values, 1);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index number = m_numbers[face][k];
+      const Index number = numbers.of_face[face][k];
       m_wedges[number].value = values[k];
-      m_wedges[number].quadric += constraints.vertex_weights.empty()
-                                      ? of_face
-                                      : Quadric(points, values, constraints.vertex_weights[vertices[number]]);
+      m_wedges[number].quadric +=
+          constraints.vertex_weights.empty()
+              ? of_face
+              : Quadric(points, values, constraints.vertex_weights[numbers.vertices[number]]);
     }
   }
 }
@@ -64,10 +63,10 @@ void Value_wedges<dimension>::for_each_moved_wedge(Halfedge moving, const Functi
     if (mesh().is_border(h))
       continue;
     const auto [from, to] = m_corners.halfedges_to_ends(moving, h);
-    const Index wedge = number_at(from);
+    const Index wedge = m_table.wedge(from);
     if (wedge != done)
-      function(wedge, number_at(to));
-    if (m_is_alone[wedge])
+      function(wedge, m_table.wedge(to));
+    if (m_table.is_alone(mesh().source(moving)))
       return;
     done = wedge;
   }
@@ -121,6 +120,7 @@ void Value_wedges<dimension>::merge(Halfedge moving)
     Wedge& merged = m_wedges[to];
     merged.quadric += gone.quadric.moved_by(along(moving), gone.value_motion(merged.value));
   });
+  m_table.on_merging(mesh().source(moving), mesh().target(moving));
 }
 
 template <std::size_t dimension>
@@ -143,6 +143,7 @@ void Value_wedges<dimension>::merge_at(Halfedge moving, const Point_3& place,
     for (std::size_t k = 0; k < dimension; ++k)
       merged.value[k] += best[k];
   });
+  m_table.on_merging(mesh().source(moving), mesh().target(moving));
 }
 
 template class Value_wedges<2>;

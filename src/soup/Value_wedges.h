@@ -5,6 +5,7 @@
 #define SELVEDGE_SOUP_VALUE_WEDGES_H
 
 #include "Corner_mesh.h"
+#include "Wedge_table.h"
 
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/internal/Value_quadric.h>
@@ -52,9 +53,6 @@ public:
   /// one, they get that for which the displacement is least.
   void merge_at(Halfedge moving, const Point_3& place, const std::optional<Value>& of_soup);
 
-  /// Puts the corner at the target of h into the wedge at the target of `from`.
-  void carry(Halfedge h, Halfedge from) { number_at(h) = number_at(from); }
-
 private:
   struct Wedge
   {
@@ -70,9 +68,11 @@ private:
     }
   };
 
+  Value_wedges(const Corner_mesh& corners, const Wedge_numbers& numbers, const Scale& scale,
+               const Simplify_constraints<Mesh>& constraints, double unit,
+               const std::vector<Value>* of_vertices);
+
   const Mesh& mesh() const { return m_corners.mesh(); }
-  Index& number_at(Halfedge h) { return m_numbers[mesh().face(h)][m_corners.place(h)]; }
-  Index number_at(Halfedge h) const { return m_numbers[mesh().face(h)][m_corners.place(h)]; }
   template <class Function>
   void for_each_moved_wedge(Halfedge moving, const Function& function) const;
   Vector motion(Mesh::Vertex_index v, const Point_3& place) const;
@@ -95,10 +95,8 @@ private:
 
   const Corner_mesh& m_corners;
   double m_unit;
-  std::vector<Index_triple> m_numbers; // of wedges: by face, for each of its corners
+  Wedge_table m_table;
   std::vector<Wedge> m_wedges;
-  std::vector<bool>
-      m_is_alone; // by wedge: the only one at its vertex, and stays so, as lines neither begin nor end later
 };
 
 using Texture_wedges = Value_wedges<2>;

@@ -106,10 +106,7 @@ void Working_mesh::carry_all(Halfedge moving, const Border_rule<Mesh>& rule)
   if (m_progression)
     m_progression->record_moves(moving);
   for_each_measure([&](auto& wedges) { wedges.merge(moving); });
-  for_each_changed_face(moving, rule, [this](Halfedge h, Halfedge from) {
-    carry(h, from);
-    for_each_measure([&](auto& wedges) { wedges.carry(h, from); });
-  });
+  for_each_changed_face(moving, rule, [this](Halfedge h, Halfedge from) { carry(h, from); });
   carry_places(moving);
 }
 
@@ -128,10 +125,8 @@ void Working_mesh::before_placement(Halfedge moving, const Point_3& place, bool 
     m_shading->merge_at(moving, place,
                         m_vertex_normals ? std::nullopt
                                          : std::optional(m_placed.normal_at(corner_at(moving))));
-  for (const Halfedge h : mesh().halfedges_around_target(mesh().prev(moving))) {
+  for (const Halfedge h : mesh().halfedges_around_target(mesh().prev(moving)))
     carry(h, moving);
-    for_each_measure([&](auto& wedges) { wedges.carry(h, moving); });
-  }
   carry_places(moving);
 }
 

@@ -933,8 +933,18 @@ group(
 group(
     "src/soup/Value_wedges.cpp",
     ("value_wedges_test",),
-    ("wedges_at[v] == 1", "true", "the texture beyond a seam costs nothing"),
     ("if (wedge != done)", "if (true)", "a wedge on both sides of an edge counts twice"),
+)
+group(
+    "src/soup/Wedge_table.cpp",
+    ("wedge_table_test",),
+    ("is_met[v] ? s_several : wedge", "wedge", "all corners at a seam are of its last wedge"),
+    ("1) << corner % 64;", "1) << corner % 32;", "corners are taken for others"),
+)
+group(
+    "src/soup/Wedge_table.h",
+    ("wedge_table_test",),
+    ("    m_of_vertex[gone] = m_of_vertex[goal];\n", "", "a merged vertex has the wedge of the one that is gone"),
 )
 group(
     "src/soup/number_wedges.cpp",
