@@ -25,6 +25,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -42,7 +43,7 @@ public:
         m_working(prepared.soup, prepared.positions, m_is_frozen, prepared.obstacle, prepared.scale,
                   prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
-        m_simplification(m_working.mesh(), m_options, set_up(intent), m_working)
+        m_simplification(std::in_place, m_working.mesh(), m_options, set_up(intent), m_working)
   {
   }
 
@@ -52,7 +53,12 @@ public:
       run_in_cells();
     else
       begin();
-    return state(m_simplification.run());
+    const Simplify_report report = m_simplification->run();
+    // The result needs only a part of what the reduction has needed, and is made in the room that this
+    // leaves.
+    m_simplification.reset();
+    m_working.forget_wedges();
+    return state(report);
   }
 
   /// Returns the states in which runs to some ratios would end. `ratios` are in descending order.
@@ -60,7 +66,7 @@ public:
   {
     std::vector<Simplified_soup> levels;
     begin();
-    m_simplification.run(ratios, [&](const Simplify_report& report) { levels.push_back(state(report)); });
+    m_simplification->run(ratios, [&](const Simplify_report& report) { levels.push_back(state(report)); });
     return levels;
   }
 
@@ -200,9 +206,9 @@ private:
 
   void add_to_history()
   {
-    Refusals refused = m_simplification.refusals();
+    Refusals refused = m_simplification->refusals();
     refused.by_loop = 0; // it counts this collapse
-    m_history.add(m_simplification.cost() / (m_simplification.diagonal() * m_simplification.diagonal()),
+    m_history.add(m_simplification->cost() / (m_simplification->diagonal() * m_simplification->diagonal()),
                   refused);
   }
 
@@ -320,8 +326,8 @@ private:
   // Does at once what only reads the mesh.
   void begin()
   {
-    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
-                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),
+    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification->build_index(); }),
+                         Cancellation_scope::inherited([this] { m_simplification->begin(); }),
                          Cancellation_scope::inherited([this] { m_working.find_wedges(); }));
   }
 
@@ -331,7 +337,7 @@ private:
   void run_in_cells()
   {
     const internal::Stopwatch stopwatch;
-    const auto total = m_simplification.targets().total();
+    const auto total = m_simplification->targets().total();
     const std::size_t movable =
         m_working.mesh().number_of_vertices() - m_working.constraints().locked_vertices.size();
     if (movable == 0)
@@ -342,13 +348,13 @@ private:
     tbb::parallel_invoke(Cancellation_scope::inherited([&] {
                            found = reduce_in_cells({m_prepared,
                                                     m_working,
-                                                    m_simplification.rule(),
+                                                    m_simplification->rule(),
                                                     m_options,
-                                                    m_simplification.diagonal(),
+                                                    m_simplification->diagonal(),
                                                     {total.faces, total.target, total.faces},
                                                     share});
                          }),
-                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),
+                         Cancellation_scope::inherited([this] { m_simplification->begin(); }),
                          Cancellation_scope::inherited([this] { m_working.find_wedges(); }));
     m_cells = found.cells;
     m_is_stopped_in_cells = found.is_stopped;
@@ -361,7 +367,7 @@ private:
     for (const std::vector<Cell_collapse>& of_cell : found.collapses)
       for (const auto& [collapse, cost] : of_cell) {
         // Small cells may together go too far, each by its last face.
-        if (m_simplification.targets().is_reached())
+        if (m_simplification->targets().is_reached())
           break;
         // When somebody wants to stop, all that the cells have reached is done without another question, so
         // that the result is even.
@@ -372,15 +378,15 @@ private:
           else if (!m_is_stopped_in_cells)
             m_is_stopped_in_cells = m_options.should_stop({total.faces, total.target, faces_left});
         }
-        m_simplification.collapse(m_working.halfedge(collapse.moving), collapse.place,
-                                  collapse.is_mover_first, cost);
+        m_simplification->collapse(m_working.halfedge(collapse.moving), collapse.place,
+                                   collapse.is_mover_first, cost);
         ++m_collapses_in_cells;
       }
     if (m_is_stopped_in_cells)
       m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_seconds_cells = stopwatch.seconds();
-    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
-                         Cancellation_scope::inherited([this] { m_simplification.refresh_quadrics(); }));
+    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification->build_index(); }),
+                         Cancellation_scope::inherited([this] { m_simplification->refresh_quadrics(); }));
   }
 
   Simplified_soup state(const Simplify_report& report) const
@@ -440,7 +446,7 @@ private:
   std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
   Progression m_progression;              // if it is recorded
   Reduction_history m_history;
-  internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
+  std::optional<internal::Simplification<Working_mesh::Mesh, Working_mesh>> m_simplification; // until it ends
   bool m_is_stopped_in_cells = false;
   std::size_t m_cells = 0;
   std::size_t m_collapses_in_cells = 0;

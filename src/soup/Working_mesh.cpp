@@ -179,6 +179,7 @@ Working_mesh::Result Working_mesh::result() const
     Index ply;
   };
   std::vector<Left> left;
+  left.reserve(mesh().number_of_faces());
   for (const Face face : mesh().faces()) {
     if (!is_own(face))
       break; // the faces of the obstacle come last
@@ -186,6 +187,8 @@ Working_mesh::Result Working_mesh::result() const
       left.push_back({triangle(face, i), face, i});
   }
   std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.triangle < b.triangle; });
+  result.triangles.reserve(left.size());
+  result.corners.reserve(left.size());
   for (const auto& [triangle, face, i] : left) {
     result.triangles.push_back(triangle);
     result.corners.push_back(corners_in_soup(face, i));

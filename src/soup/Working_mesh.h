@@ -63,6 +63,13 @@ public:
   /// **Preconditions** Weights are set, and nothing has been collapsed.
   void find_wedges();
 
+  /// Forgets these values, when nothing more is collapsed.
+  void forget_wedges()
+  {
+    m_texture.reset();
+    m_shading.reset();
+  }
+
   /// Makes `rounded_place` return places from now on, as `Place_rounding` does; before, it returns none.
   void allow_new_places(bool is_float32);
 

@@ -610,7 +610,7 @@ group(
 group(
     "src/simplify/simplify_soup.cpp",
     ("cells_test:Cells.GoAsFar*",),
-    ("                         }),\n                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),",
+    ("                         }),\n                         Cancellation_scope::inherited([this] { m_simplification->begin(); }),",
      "                         }),", "the error counts from what cells have left"),
 )
 group(
