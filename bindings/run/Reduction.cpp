@@ -71,6 +71,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       options.max_error = m_error_search->max_error();
     if (m_guarded_poses.size() < poses)
       options.guarded_poses = m_guarded_poses;
+    options.are_values_fitted = false; // until a result is kept
     std::vector<Soup_collapse> collapses;
     if (request.is_log_wanted)
       options.on_collapse = [&](const Soup_collapse& collapse) { collapses.push_back(collapse); };
@@ -100,9 +101,11 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       }
     }
   } while (is_to_be_repeated(request, missed_target));
-  for (Level& level : m_levels)
+  for (Level& level : m_levels) {
+    fit_values(level.result, m_prepared, request.intent);
     if (m_is_sewn)
       level.merged = merged_at_positions(level.result.soup);
+  }
 }
 
 // Judges results, which become the levels.

@@ -47,6 +47,9 @@ struct Corner_values
   std::optional<Index> missing = std::nullopt;
 
   bool empty() const { return of_triangle.empty(); }
+
+  /// Whether the corners of a triangle have values.
+  bool has(std::size_t triangle) const { return !empty() && of_triangle[triangle][0] != missing; }
 };
 
 /// A column of numbers that a file keeps for every vertex or every triangle, in the type in which it keeps

@@ -81,6 +81,7 @@ struct Simplified_soup
   std::optional<double> clearance; ///< that pieces keep from each other; `verify` judges it
 
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
+  std::vector<char> is_placed;     ///< by vertex, which they are; empty if there are none
   std::size_t fitted_texture = 0;  ///< how many of these have fitted texture coordinates
   std::size_t mended_normals = 0;  ///< how many corners of `soup` have a new normal (`mend_normals`)
   std::size_t fitted_normals = 0;  ///< how many corners of `soup` have another normal (`fit_normals`)
@@ -139,6 +140,11 @@ struct Simplified_soup
 /// intersect another, in a reduction in cells (`Simplify_options::faces_per_cell`).
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
                               const Simplify_intent& intent = {});
+
+/// Does what `simplify_soup` leaves out without `Simplify_options::are_values_fitted`: fits the texture
+/// coordinates of vertices at new places and, where `Prepare_options::normals` asks for it, normals. Points
+/// and triangles stay, and with them what `verify` says. `prepared` and `intent` are those of the reduction.
+void fit_values(Simplified_soup& result, const Prepared_soup& prepared, const Simplify_intent& intent = {});
 
 /// Makes levels of detail. For each of `ratios`, which replace `Simplify_options::ratio`, the result is
 /// exactly what `simplify_soup` returns for this ratio alone, apart from the seconds, if the mesh has at most

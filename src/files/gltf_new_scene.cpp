@@ -99,19 +99,13 @@ private:
     bool operator==(const Vertex& other) const { return key() == other.key(); }
   };
 
-  template <std::size_t dimension>
-  static bool has_value(const Corner_values<dimension>& values, std::size_t triangle)
-  {
-    return !values.empty() && values.of_triangle[triangle][0] != values.missing;
-  }
-
   // Each makes a node: groups, or objects where there are none.
   const Triangle_labels& parts() const { return m_soup.groups.empty() ? m_soup.objects : m_soup.groups; }
 
   Vertex vertex(std::size_t t, std::size_t corner) const
   {
-    const Kind kind = {parts().empty() ? 0 : parts().of_triangle[t], has_value(m_soup.uvs, t),
-                       has_value(m_soup.normals, t)};
+    const Kind kind = {parts().empty() ? 0 : parts().of_triangle[t], m_soup.uvs.has(t),
+                       m_soup.normals.has(t)};
     return {kind, m_soup.triangles[t][corner],
             kind.has_uvs ? m_uvs.numbers[m_soup.uvs.of_triangle[t][corner]] : 0,
             kind.has_normals ? m_normals.numbers[m_soup.normals.of_triangle[t][corner]] : 0};

@@ -237,7 +237,7 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
     for (const Index corner : corners)
       values.write(soup.triangles[corner / 3][corner % 3]);
     if (layout.has_face_uvs) {
-      const bool has_uvs = !soup.uvs.empty() && soup.uvs.of_triangle[triangle][0] != soup.uvs.missing;
+      const bool has_uvs = soup.uvs.has(triangle);
       values.write(std::uint8_t(has_uvs ? 2 * corners.size() : 0));
       for (const Index corner : corners)
         if (has_uvs)

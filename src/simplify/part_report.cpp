@@ -52,11 +52,6 @@ Triangle_3 triangle_of(const Triangle_soup& soup, Index t, const Scale& scale)
   return {scale(soup.points[a]), scale(soup.points[b]), scale(soup.points[c])};
 }
 
-bool has_texture(const Triangle_soup& soup, Index t)
-{
-  return !soup.uvs.missing || soup.uvs.of_triangle[t][0] != *soup.uvs.missing;
-}
-
 // Returns a number for the chart of each triangle.
 std::vector<Index> charts_of(const Triangle_soup& soup)
 {
@@ -150,7 +145,7 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
         chart = charts.find(charts_of_original[t]);
         guess = 0;
       }
-      if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
+      if (!original.uvs.has(t) || chart == charts.end() || chart->second.empty())
         continue;
       const auto [a, b, c] = uvs_of(original, t);
       const Triangle_3 triangle = triangle_of(original, t, prepared.scale);
@@ -168,7 +163,7 @@ std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacement
 {
   double area = 0, sum = 0, maximum = 0;
   for (const Index t : triangles) {
-    if (displacements.empty() || !has_texture(original.soup, t))
+    if (displacements.empty() || !original.soup.uvs.has(t))
       continue;
     const double weight = std::sqrt(triangle_of(original.soup, t, original.scale).squared_area());
     area += weight;

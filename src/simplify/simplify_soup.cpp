@@ -5,7 +5,11 @@
 
 #include "guarded_poses.h"
 #include "reduce_in_cells.h"
+#include "soup/Fitted_surface.h"
+#include "soup/Vertex_values.h"
 #include "soup/Working_mesh.h"
+#include "soup/fit_normals.h"
+#include "soup/fit_texture.h"
 #include "soup/obstacle.h"
 #include "soup/selection.h"
 #include "soup/texture.h"
@@ -32,6 +36,72 @@
 namespace selvedge {
 namespace {
 
+// Returns, for each triangle of the original, whether it stays.
+std::vector<char> frozen(const Prepared_soup& prepared, const Simplify_intent& intent)
+{
+  std::vector<char> is_frozen = prepared.is_frozen;
+  for (const auto* names : {&intent.locked, &intent.kept})
+    for (const std::string& name : *names) {
+      const std::vector<char> is_named = triangles_named(prepared.soup, name);
+      std::transform(
+          is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
+          [](char named, char frozen) { return frozen || !named ? frozen : Working_mesh::by_wish; });
+    }
+  if (prepared.doubles() == 0 || intent.ratios.empty())
+    return is_frozen;
+  // A face counts for one target. Where its doubles belong to parts with other targets, it stays.
+  std::vector<std::size_t> share_of(prepared.soup.triangles.size(), 0);
+  for (std::size_t i = 0; i < intent.ratios.size(); ++i) {
+    const std::vector<char> is_named = triangles_named(prepared.soup, intent.ratios[i].name);
+    for (Index t = 0; t < is_named.size(); ++t)
+      if (is_named[t])
+        share_of[t] = i + 1;
+  }
+  for (Index t = 0; t < prepared.fronts.size(); ++t)
+    if (const Index front = prepared.fronts[t]; share_of[t] != share_of[front] && is_frozen[front] == 0)
+      is_frozen[front] = true;
+  return is_frozen;
+}
+
+// Returns the normals of the original that those of a result come from.
+const Corner_values<3>& normals_of(const Prepared_soup& prepared)
+{
+  return are_picked(prepared.normals) ? prepared.taken_normals : prepared.soup.normals;
+}
+
+// Fits the texture coordinates of vertices at new places. Returns how many have others than before.
+std::size_t fit_texture(const Fitted_surface& surface, const std::vector<Index_triple>& corners,
+                        const std::vector<char>& is_placed, Triangle_soup& result)
+{
+  using Coordinates = std::array<double, 2>;
+  const Vertex_values values(surface.original());
+  std::vector<char> is_free(result.points.size(), false);
+  std::vector<Index> corner_of(result.points.size()); // of the original, by free vertex
+  std::vector<Coordinates> before(result.points.size());
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const Index v = result.triangles[i][k]; is_placed[v] && result.uvs.has(i)) {
+        is_free[v] = true;
+        corner_of[v] = corners[i][k];
+        before[v] = result.uvs.values[result.uvs.of_triangle[i][k]];
+      }
+  std::vector<std::optional<Vertex_values::Stored_uv>> last(result.points.size());
+  const std::vector<Coordinates> fitted =
+      fitted_texture(surface, is_free, [&](Index v, const Coordinates& uv) {
+        last[v] = values.stored_uv(corner_of[v], uv);
+        return last[v]->uv;
+      });
+  std::size_t count = 0;
+  for (Index v = 0; v < fitted.size(); ++v)
+    if (is_free[v] && fitted[v] != before[v])
+      ++count;
+    else
+      last[v].reset();
+  if (count > 0)
+    values.put_uvs(last, result);
+  return count;
+}
+
 /// One reduction of a soup, which can be looked at on its way.
 class Soup_reduction
 {
@@ -39,9 +109,8 @@ public:
   Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
                  const Simplify_intent& intent)
       : m_options(scaled(options, prepared.scale)), m_clearance(options.clearance), m_prepared(prepared),
-        m_is_frozen(frozen(prepared, intent)),
-        m_working(prepared.soup, prepared.positions, m_is_frozen, prepared.obstacle, prepared.scale,
-                  prepared.is_turned, prepared.fronts),
+        m_intent(intent), m_working(prepared.soup, prepared.positions, frozen(prepared, intent),
+                                    prepared.obstacle, prepared.scale, prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
         m_simplification(std::in_place, m_working.mesh(), m_options, set_up(intent), m_working)
   {
@@ -82,32 +151,6 @@ private:
           "the clearance is so small beside the coordinates that it is no number at their scale; "
           "leave it out, since nothing touches anyway");
     return options;
-  }
-
-  static std::vector<char> frozen(const Prepared_soup& prepared, const Simplify_intent& intent)
-  {
-    std::vector<char> is_frozen = prepared.is_frozen;
-    for (const auto* names : {&intent.locked, &intent.kept})
-      for (const std::string& name : *names) {
-        const std::vector<char> is_named = triangles_named(prepared.soup, name);
-        std::transform(
-            is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
-            [](char named, char frozen) { return frozen || !named ? frozen : Working_mesh::by_wish; });
-      }
-    if (prepared.doubles() == 0 || intent.ratios.empty())
-      return is_frozen;
-    // A face counts for one target. Where its doubles belong to parts with other targets, it stays.
-    std::vector<std::size_t> share_of(prepared.soup.triangles.size(), 0);
-    for (std::size_t i = 0; i < intent.ratios.size(); ++i) {
-      const std::vector<char> is_named = triangles_named(prepared.soup, intent.ratios[i].name);
-      for (Index t = 0; t < is_named.size(); ++t)
-        if (is_named[t])
-          share_of[t] = i + 1;
-    }
-    for (Index t = 0; t < prepared.fronts.size(); ++t)
-      if (const Index front = prepared.fronts[t]; share_of[t] != share_of[front] && is_frozen[front] == 0)
-        is_frozen[front] = true;
-    return is_frozen;
   }
 
   // Tells the working mesh what to hold, to measure and to record, and returns its constraints.
@@ -394,7 +437,6 @@ private:
     const internal::Stopwatch stopwatch;
     Simplified_soup result;
     Working_mesh::Result left = m_working.result();
-    result.fitted_texture = m_working.fit_texture(left);
     result.soup = std::move(left.soup);
     result.triangles = std::move(left.triangles);
     restore_normals(result.soup, m_prepared.normals);
@@ -402,16 +444,16 @@ private:
     const Corner_values<3>& taken = m_prepared.taken_normals;
     if (m_prepared.normals == Normals_treatment::flat && !taken.empty())
       keep_flat_normals(result.soup, result.triangles, original, taken);
-    const Corner_values<3>& normals = are_picked(m_prepared.normals) ? taken : original.normals;
+    const Corner_values<3>& normals = normals_of(m_prepared);
     if (are_picked(m_prepared.normals))
       pick_normals(result.soup, result.triangles, left.corners, original, normals);
     if (m_prepared.normals == Normals_treatment::mended || are_fitted(m_prepared.normals))
       result.mended_normals = mend_normals(result.soup, result.triangles, original, normals);
-    if (are_fitted(m_prepared.normals))
-      result.fitted_normals =
-          fit_normals(result.soup, result.triangles, left.corners, original, normals, m_is_frozen);
     result.corners = std::move(left.corners);
-    result.placed_vertices = left.placed_vertices;
+    result.is_placed = std::move(left.is_placed);
+    result.placed_vertices = std::size_t(std::count(result.is_placed.begin(), result.is_placed.end(), true));
+    if (m_options.are_values_fitted)
+      fit_values(result, m_prepared, m_intent);
     if (report.hindrances.total() > 0)
       result.held_by = std::move(left.held_by);
     result.collapses = m_collapses;
@@ -438,7 +480,7 @@ private:
   Simplify_options m_options;
   std::optional<double> m_clearance; // in the unit of the soup
   const Prepared_soup& m_prepared;
-  std::vector<char> m_is_frozen; // by triangle of the original
+  const Simplify_intent& m_intent;
   internal::Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;
@@ -491,6 +533,20 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 {
   check(prepared, options, intent);
   return Soup_reduction(prepared, options, intent).run();
+}
+
+void fit_values(Simplified_soup& result, const Prepared_soup& prepared, const Simplify_intent& intent)
+{
+  Triangle_soup& soup = result.soup;
+  const bool is_texture_fitted = !result.is_placed.empty() && !soup.uvs.empty();
+  if (!is_texture_fitted && !are_fitted(prepared.normals))
+    return;
+  const Fitted_surface surface(soup, result.triangles, result.corners, prepared.soup, prepared.positions);
+  if (is_texture_fitted)
+    result.fitted_texture = fit_texture(surface, result.corners, result.is_placed, soup);
+  if (are_fitted(prepared.normals))
+    result.fitted_normals =
+        fit_normals(surface, normals_of(prepared), frozen(prepared, intent), soup.normals);
 }
 
 namespace {

@@ -3,7 +3,6 @@
 
 #include "Placed_vertices.h"
 
-#include "fit_texture.h"
 #include "selection.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
@@ -89,58 +88,24 @@ Placed_vertices::Mixture Placed_vertices::computed_mixture_at(Halfedge moving, c
   return {{share_of(0), share_of(1), share_of(2)}, own};
 }
 
-std::size_t Placed_vertices::put(const std::vector<Index_triple>& corners, Triangle_soup& result) const
+std::vector<char> Placed_vertices::put(const std::vector<Index_triple>& corners, Triangle_soup& result) const
 {
   if (!has_any())
-    return 0;
-  std::size_t count = 0;
+    return {};
+  std::vector<char> is_placed(result.points.size(), false);
   const std::vector<Point_3> points_before = result.points;
   Vertex_values::Of_vertices values(result.points.size(), nullptr);
   for (std::size_t t = 0; t < corners.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       if (const Placed_vertex* const placed = find(corners[t][k])) {
         const Index vertex = result.triangles[t][k];
-        count += !values[vertex];
+        is_placed[vertex] = true;
         result.points[vertex] = placed->point;
         values[vertex] = &placed->values;
       }
   forget_moved_polygons(result, points_before);
   m_values->put(values, result);
-  return count;
-}
-
-std::size_t Placed_vertices::fit_texture(const std::vector<Index>& triangles,
-                                         const std::vector<Index_triple>& corners,
-                                         Triangle_soup& result) const
-{
-  if (!has_any() || result.uvs.empty())
-    return 0;
-  std::vector<Index> corner_of(result.points.size()); // of the soup, by placed vertex of the result
-  std::vector<char> is_placed(result.points.size(), false);
-  for (std::size_t t = 0; t < corners.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (find(corners[t][k]) && result.uvs.of_triangle[t][k] != result.uvs.missing) {
-        corner_of[result.triangles[t][k]] = corners[t][k];
-        is_placed[result.triangles[t][k]] = true;
-      }
-  std::vector<Vertex_values::Numbers> numbers(result.points.size());
-  const auto stored = [&](Index vertex, const Uv& uv) {
-    if (numbers[vertex].empty())
-      numbers[vertex] = find(corner_of[vertex])->values;
-    m_values->set_uv(numbers[vertex], corner_of[vertex], uv);
-    return m_values->uv(numbers[vertex]);
-  };
-  const std::vector<Uv> fitted = fitted_texture(result, triangles, is_placed, m_corners.soup(), stored);
-  Vertex_values::Of_vertices values(result.points.size(), nullptr);
-  std::size_t count = 0;
-  for (Index v = 0; v < fitted.size(); ++v)
-    if (is_placed[v] && fitted[v] != m_values->uv(find(corner_of[v])->values)) {
-      values[v] = &numbers[v]; // as they were stored last
-      ++count;
-    }
-  if (count > 0)
-    m_values->put(values, result);
-  return count;
+  return is_placed;
 }
 
 } // namespace selvedge

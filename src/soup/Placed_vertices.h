@@ -62,13 +62,8 @@ public:
   }
 
   /// Puts the vertices into a soup that was selected from that of the mesh, whose triangles have these
-  /// corners. Returns their number.
-  std::size_t put(const std::vector<Index_triple>& corners, Triangle_soup& result) const;
-
-  /// Gives those that have been put into a result, whose triangles are these, the texture coordinates of
-  /// `fitted_texture`. Returns how many have others than before.
-  std::size_t fit_texture(const std::vector<Index>& triangles, const std::vector<Index_triple>& corners,
-                          Triangle_soup& result) const;
+  /// corners. Returns which of its vertices they are, nothing if there are none.
+  std::vector<char> put(const std::vector<Index_triple>& corners, Triangle_soup& result) const;
 
 private:
   struct Placed_vertex

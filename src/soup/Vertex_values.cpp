@@ -156,11 +156,11 @@ double Vertex_values::stored(const Column& column, double number, std::size_t co
   return with_number(column.type, [&](auto zero) { return double(nearest_number<decltype(zero)>(number)); });
 }
 
-void Vertex_values::write(const Column& column, const Numbers& numbers, void* bytes)
+void Vertex_values::write(const Column& column, const double* numbers, void* bytes)
 {
   with_number(column.type, [&](auto number) {
     for (std::size_t i = 0; i < column.components; ++i) {
-      number = static_cast<decltype(number)>(stored(column, numbers[column.first + i], i));
+      number = static_cast<decltype(number)>(stored(column, numbers[i], i));
       std::memcpy(static_cast<unsigned char*>(bytes) + i * sizeof number, &number, sizeof number);
     }
   });
@@ -190,11 +190,21 @@ Vertex_values::Numbers Vertex_values::numbers_of(const Share& share) const
   return result;
 }
 
+const Vertex_values::Column* Vertex_values::texture_column(Index corner) const
+{
+  return m_soup.scene ? scene_row(corner).table->find("TEXCOORD_0", 2) : nullptr;
+}
+
+// Returns the texture coordinate that a reader makes of a number in an accessor.
+double Vertex_values::coordinate(const Column& column, double number, std::size_t component)
+{
+  const double result = fraction(column.type, number);
+  return component == 0 ? result : 1 - result;
+}
+
 std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share& own) const
 {
-  const Column* column = nullptr;
-  if (m_soup.scene)
-    column = scene_row(own.corner).table->find("TEXCOORD_0", 2);
+  const Column* const column = texture_column(own.corner);
   std::array<double, 2> result{};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto at = [&](const Share& share) {
@@ -208,10 +218,7 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
       if (share.weight != 0)
         result[i] += share.weight * at(share);
     if (column) {
-      // What the accessor will hold, as its reader makes it a coordinate.
-      const double number = stored(*column, std::isfinite(result[i]) ? result[i] : at(own), i);
-      const double coordinate = fraction(column->type, number);
-      result[i] = i == 0 ? coordinate : 1 - coordinate;
+      result[i] = coordinate(*column, stored(*column, std::isfinite(result[i]) ? result[i] : at(own), i), i);
     } else {
       if (m_are_uvs_float32)
         result[i] = nearest_float32(result[i]);
@@ -222,20 +229,20 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
   return result;
 }
 
-void Vertex_values::set_uv(Numbers& numbers, Index corner, const std::array<double, 2>& uv) const
+Vertex_values::Stored_uv Vertex_values::stored_uv(Index corner, const std::array<double, 2>& uv) const
 {
-  const Column* const column = m_soup.scene ? scene_row(corner).table->find("TEXCOORD_0", 2) : nullptr;
+  const Column* const column = texture_column(corner);
+  Stored_uv result{};
   for (std::size_t i = 0; i < 2; ++i) {
     if (column) {
-      // `fraction` divides by the largest integer, or by 1.
-      const double one = fraction(column->type, 1), coordinate = i == 0 ? uv[0] : 1 - uv[1];
-      const double number = stored(*column, coordinate / one, i);
-      numbers[column->first + i] = number;
-      numbers[i] = i == 0 ? fraction(column->type, number) : 1 - fraction(column->type, number);
+      const double one = fraction(column->type, 1); // divided by the largest integer, or by 1
+      result.in_scene[i] = stored(*column, (i == 0 ? uv[0] : 1 - uv[1]) / one, i);
+      result.uv[i] = coordinate(*column, result.in_scene[i], i);
     } else {
-      numbers[i] = m_are_uvs_float32 ? nearest_float32(uv[i]) : uv[i];
+      result.uv[i] = m_are_uvs_float32 ? nearest_float32(uv[i]) : uv[i];
     }
   }
+  return result;
 }
 
 Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& own) const
@@ -430,7 +437,7 @@ void Vertex_values::put_in_scene(const Of_vertices& of_vertex, Triangle_soup& re
     for (const Column& column : table.columns) {
       Gltf_scene::Column& written = column.target == s_none ? block.attributes[column.place]
                                                             : block.targets[column.target][column.place];
-      write(column, *of_vertex[v], written.rows.data() + row * written.row_size);
+      write(column, of_vertex[v]->data() + column.first, written.rows.data() + row * written.row_size);
     }
     for (const auto& [weights, joints] : table.influences)
       clear_joints_without_weight(block.attributes[weights.place], block.attributes[joints.place], row);
@@ -440,14 +447,14 @@ void Vertex_values::put_in_scene(const Of_vertices& of_vertex, Triangle_soup& re
 
 // Overwrites values that belong to one vertex alone, so that files with one value for each vertex stay such
 // files, and adds new values where vertices share one.
-template <std::size_t dimension>
-void Vertex_values::put(const Of_vertices& of_vertex, std::size_t first, const Triangle_soup& result,
+template <std::size_t dimension, class Numbers_of>
+void Vertex_values::put(const Numbers_of& numbers_of, const Triangle_soup& result,
                         Corner_values<dimension>& values)
 {
   if (values.empty())
     return;
   constexpr Index none = std::numeric_limits<Index>::max();
-  std::vector<Index> owner(values.values.size(), none), added(of_vertex.size(), none);
+  std::vector<Index> owner(values.values.size(), none), added(result.points.size(), none);
   std::vector<char> is_shared(values.values.size(), false);
   for (std::size_t t = 0; t < result.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -458,8 +465,9 @@ void Vertex_values::put(const Of_vertices& of_vertex, std::size_t first, const T
   for (std::size_t t = 0; t < result.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index vertex = result.triangles[t][k];
+      const double* const numbers = numbers_of(vertex);
       Index& number = values.of_triangle[t][k];
-      if (!of_vertex[vertex] || number == values.missing)
+      if (!numbers || number == values.missing)
         continue;
       if (is_shared[number] && added[vertex] == none) {
         added[vertex] = Index(values.values.size());
@@ -468,20 +476,22 @@ void Vertex_values::put(const Of_vertices& of_vertex, std::size_t first, const T
       }
       if (is_shared[number])
         number = added[vertex];
-      std::copy_n(of_vertex[vertex]->begin() + std::ptrdiff_t(first), dimension,
-                  values.values[number].begin());
+      std::copy_n(numbers, dimension, values.values[number].begin());
     }
 }
 
 void Vertex_values::put(const Of_vertices& of_vertex, Triangle_soup& result) const
 {
   const std::size_t values_before = result.uvs.values.size() + result.normals.values.size();
-  put(of_vertex, 0, result, result.uvs);
-  put(of_vertex, m_first_of_normal, result, result.normals);
+  const auto from = [&](std::size_t first) {
+    return [&of_vertex, first](Index v) { return of_vertex[v] ? of_vertex[v]->data() + first : nullptr; };
+  };
+  put(from(0), result, result.uvs);
+  put(from(m_first_of_normal), result, result.normals);
   for (const Column& column : m_own.columns)
     for (std::size_t v = 0; v < of_vertex.size(); ++v)
       if (of_vertex[v])
-        write(column, *of_vertex[v],
+        write(column, of_vertex[v]->data() + column.first,
               result.vertex_attributes[column.place].rows.data() + v * column.row_size);
   if (m_soup.scene)
     put_in_scene(of_vertex, result);
@@ -493,6 +503,28 @@ void Vertex_values::put(const Of_vertices& of_vertex, Triangle_soup& result) con
   for (const Index t : triangles)
     corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   result = selected(result, triangles, corners); // drops the values that nobody shares any more
+}
+
+void Vertex_values::put_uvs(const std::vector<std::optional<Stored_uv>>& of_vertex,
+                            Triangle_soup& result) const
+{
+  put([&](Index v) { return of_vertex[v] ? of_vertex[v]->uv.data() : nullptr; }, result, result.uvs);
+  if (!m_soup.scene)
+    return;
+  const auto scene = std::make_shared<Gltf_scene>(*result.scene);
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    if (!of_vertex[v])
+      continue;
+    const std::size_t number = scene->instance_of(result.scene_vertices[v]);
+    const Gltf_scene::Instance& instance = scene->instances[number];
+    const Table& table = m_of_blocks[m_soup.scene->instances[number].block];
+    if (const Column* const column = table.find("TEXCOORD_0", 2)) {
+      Gltf_scene::Column& written = scene->blocks[instance.block].attributes[column->place];
+      write(*column, of_vertex[v]->in_scene.data(),
+            written.rows.data() + (result.scene_vertices[v] - instance.first) * written.row_size);
+    }
+  }
+  result.scene = scene;
 }
 
 } // namespace selvedge

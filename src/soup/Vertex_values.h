@@ -57,8 +57,12 @@ public:
   std::array<double, 2> mixed_uv(const Shares& shares, const Share& own) const;
   std::array<double, 2> uv(const Numbers& numbers) const { return {numbers[0], numbers[1]}; }
 
-  /// Sets the texture coordinates among the numbers of the vertex of a corner, as the soup can store them.
-  void set_uv(Numbers& numbers, Index corner, const std::array<double, 2>& uv) const;
+  /// Texture coordinates as the soup can store them: they, and the numbers of the accessor in glTF.
+  struct Stored_uv
+  {
+    std::array<double, 2> uv, in_scene;
+  };
+  Stored_uv stored_uv(Index corner, const std::array<double, 2>& uv) const;
 
   /// Returns the normal alone among such numbers. The soup must have some.
   std::array<double, 3> normal(const Numbers& numbers) const
@@ -73,6 +77,9 @@ public:
   /// Writes numbers into a soup that was selected from this one, and the points of these vertices into its
   /// glTF scene, which becomes one of its own. Corners of other vertices keep their values.
   void put(const Of_vertices& of_vertex, Triangle_soup& result) const;
+
+  /// Writes texture coordinates alone, where there are some, after `put` has written all.
+  void put_uvs(const std::vector<std::optional<Stored_uv>>& of_vertex, Triangle_soup& result) const;
 
 private:
   static constexpr std::size_t s_none = std::size_t(-1);
@@ -115,19 +122,21 @@ private:
     std::size_t number;
   };
   Row own_row(Index vertex) const { return {&m_own, vertex}; }
-  Row scene_row(Index corner) const; // in the table of its block; the soup must have a scene
+  Row scene_row(Index corner) const;                // in the table of its block; the soup must have a scene
+  const Column* texture_column(Index corner) const; // null if there is none
+  static double coordinate(const Column& column, double number, std::size_t component);
 
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   Numbers numbers_of(const Share& share) const;
   static double number(const Column& column, std::size_t row, std::size_t component);
   static double stored(const Column& column, double number, std::size_t component);
-  static void write(const Column& column, const Numbers& numbers, void* bytes);
+  static void write(const Column& column, const double* numbers, void* bytes);
   static void normalize(const Column& column, const Numbers& own, Numbers& numbers);
   template <class Row_of>
   static void mix_influences(const Row_of& row_of, const Shares& shares, const Share& own, Numbers& numbers);
 
-  template <std::size_t dimension>
-  static void put(const Of_vertices& of_vertex, std::size_t first, const Triangle_soup& result,
+  template <std::size_t dimension, class Numbers_of>
+  static void put(const Numbers_of& numbers_of, const Triangle_soup& result,
                   Corner_values<dimension>& values);
   void put_in_scene(const Of_vertices& of_vertex, Triangle_soup& result) const;
   static void clear_joints_without_weight(const Gltf_scene::Column& weights, Gltf_scene::Column& joints,

@@ -197,7 +197,7 @@ Working_mesh::Result Working_mesh::result() const
   }
   Cancellation_scope::check();
   result.soup = selected(soup(), result.triangles, result.corners);
-  result.placed_vertices = m_placed.put(result.corners, result.soup);
+  result.is_placed = m_placed.put(result.corners, result.soup);
   return result;
 }
 

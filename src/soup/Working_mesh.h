@@ -166,17 +166,10 @@ public:
     Triangle_soup soup;
     std::vector<Index> triangles;      ///< of the input, in its order
     std::vector<Index_triple> corners; ///< of the input, now of each triangle: 3 × triangle + place in it
-    std::size_t placed_vertices = 0;   ///< vertices of `soup` at new places, with values of their own
+    std::vector<char> is_placed;       ///< by vertex, as in `Simplified_soup`
     std::vector<Hindrance> held_by;    ///< as in `Simplified_soup`
   };
   Result result() const;
-
-  /// Gives vertices of a result that are at new places the texture coordinates of `fitted_texture`. Returns
-  /// how many have others than before.
-  std::size_t fit_texture(Result& result) const
-  {
-    return m_placed.fit_texture(result.triangles, result.corners, result.soup);
-  }
 
 private:
   // Calls function(wedges) with those of the texture and of normals that are measured.

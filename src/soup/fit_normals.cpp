@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/normals.h>
+#include "fit_normals.h"
 
 #include "Disjoint_sets.h"
 #include "Triangle_finder.h"
@@ -35,8 +35,6 @@ using shading::stored;
 using shading::unit;
 using shading::unit_normal;
 using shading::Vector;
-using surface_fit::area;
-using surface_fit::scaled;
 
 // The weight of the normals as they are, relative to that of the samples around. It decides where there are
 // few samples.
@@ -58,23 +56,26 @@ constexpr double s_share_left_of_split = 0.5;
 // one shades faces as nothing did in the original.
 constexpr double s_cosine_of_border = 0.9397;
 
+// The weights of the corners at three points of a triangle, the mean of which integrates quadratic functions
+// exactly.
+constexpr std::array<std::array<double, 3>, 3> s_sample_weights = {
+    {{1. / 6, 1. / 6, 2. / 3}, {1. / 6, 2. / 3, 1. / 6}, {2. / 3, 1. / 6, 1. / 6}}};
+
 class Normal_fit
 {
 public:
-  Normal_fit(Triangle_soup& result, const std::vector<Index>& triangles,
-             const std::vector<Index_triple>& corners, const Triangle_soup& original,
-             const Corner_values<3>& normals, const std::vector<char>& stays)
-      : m_result(result), m_triangles(triangles), m_original(original), m_normals(normals),
-        m_exponent(surface_fit::exponent_of(original)), m_is_left(original.triangles.size(), false)
+  Normal_fit(const Fitted_surface& surface, const Corner_values<3>& normals, const std::vector<char>& stays,
+             Corner_values<3>& fitted)
+      : m_surface(surface), m_result(surface.result()), m_original(surface.original()), m_normals(normals),
+        m_fitted(fitted), m_positions(number_positions(m_result.points)),
+        m_is_left(m_original.triangles.size(), false)
   {
-    for (Index i = 0; i < triangles.size(); ++i) {
-      const Index t = triangles[i];
-      m_sides.push_back(
-          has_normals(result.normals, i) ? side_of(cosines(unit_normal(original, t), normals, t)) : 0);
-      m_fronts.push_back(unit_normal(result, i));
+    for (Index i = 0; i < surface.size(); ++i) {
+      const Index t = surface.of_original(i);
+      m_sides.push_back(fitted.has(i) ? side_of(cosines(unit_normal(m_original, t), normals, t)) : 0);
     }
     number_wedges();
-    fix_what_is_left(corners, stays);
+    fix_what_is_left(stays);
   }
 
   std::size_t run()
@@ -91,22 +92,6 @@ public:
 private:
   using Sample = surface_fit::Sample<3>;
 
-  static bool has_normals(const Corner_values<3>& normals, Index triangle)
-  {
-    return normals.of_triangle[triangle][0] != normals.missing;
-  }
-
-  bool is_changed(Index i, const Index_triple& corners) const
-  {
-    const Index t = m_triangles[i];
-    if (corners != Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
-      return true;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (m_result.points[m_result.triangles[i][k]] != m_original.points[m_original.triangles[t][k]])
-        return true;
-    return false;
-  }
-
   // Returns a normal, or none where it is not finite.
   static Vector finite(const Vector& normal)
   {
@@ -114,13 +99,13 @@ private:
                                                                                                 : Vector{};
   }
 
-  // Returns which of these positions are on a border: an edge of one triangle ends there.
-  std::vector<char> are_on_border(const std::vector<Index>& positions) const
+  // Returns which positions are on a border: an edge of one triangle ends there.
+  std::vector<char> are_on_border() const
   {
     std::vector<std::pair<Index, Index>> edges;
     for (const Index_triple& triangle : m_result.triangles)
       for (std::size_t k = 0; k < 3; ++k)
-        edges.push_back(std::minmax({positions[triangle[k]], positions[triangle[(k + 1) % 3]]}));
+        edges.push_back(std::minmax({m_positions[triangle[k]], m_positions[triangle[(k + 1) % 3]]}));
     std::sort(edges.begin(), edges.end());
     std::vector<char> result(m_result.points.size(), false);
     for (std::size_t i = 0; i < edges.size(); ++i)
@@ -146,16 +131,15 @@ private:
   // A wedge is what has one normal at one position, up to 0.1°: seams of the texture are no hard edges.
   void number_wedges()
   {
-    const std::vector<Index> positions = number_positions(m_result.points);
     using Key = std::tuple<Index, Vector, Index>; // position, normal, corner
     std::vector<Key> keys;
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result.normals, i))
+      if (m_fitted.has(i))
         for (Index k = 0; k < 3; ++k)
-          keys.emplace_back(positions[m_result.triangles[i][k]], finite(normal_at(m_result.normals, i, k)),
+          keys.emplace_back(m_positions[m_result.triangles[i][k]], finite(normal_at(m_fitted, i, k)),
                             3 * i + k);
     std::sort(keys.begin(), keys.end());
-    const std::vector<char> is_on_border = are_on_border(positions);
+    const std::vector<char> is_on_border = are_on_border();
     m_wedges.assign(m_result.triangles.size(), {});
     Index first = 0, number = 0; // of the wedges at the position
     for (std::size_t j = 0; j < keys.size(); ++j) {
@@ -173,25 +157,24 @@ private:
   // Fixes the wedges around which nothing has changed, and those of triangles that stay. Others also count
   // what they show on triangles that have not changed: such a one may be a sliver of a bevel, beside a large
   // face.
-  void fix_what_is_left(const std::vector<Index_triple>& corners, const std::vector<char>& stays)
+  void fix_what_is_left(const std::vector<char>& stays)
   {
     const std::size_t count = m_result.triangles.size();
     std::vector<char> are_changed(count), is_free(m_old.size(), false);
     for (Index i = 0; i < count; ++i) {
-      are_changed[i] = is_changed(i, corners[i]);
-      if (are_changed[i] && has_normals(m_result.normals, i))
+      are_changed[i] = m_surface.is_changed(i);
+      if (are_changed[i] && m_fitted.has(i))
         for (const Index wedge : m_wedges[i])
           is_free[wedge] = true;
     }
     for (Index i = 0; i < count && !stays.empty(); ++i)
-      if (stays[m_triangles[i]] && has_normals(m_result.normals, i))
+      if (stays[m_surface.of_original(i)] && m_fitted.has(i))
         for (const Index wedge : m_wedges[i])
           is_free[wedge] = false;
     for (std::size_t w = 0; w < m_old.size(); ++w)
       m_is_fixed[w] |= !is_free[w];
     for (Index i = 0; i < count; ++i)
-      m_is_left[m_triangles[i]] =
-          !are_changed[i] && (!has_normals(m_result.normals, i) || are_fixed(m_wedges[i]));
+      m_is_left[m_surface.of_original(i)] = !are_changed[i] && (!m_fitted.has(i) || are_fixed(m_wedges[i]));
   }
 
   bool are_fixed(const Index_triple& wedges) const
@@ -203,35 +186,22 @@ private:
   {
     m_inertia.assign(m_old.size(), 0);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result.normals, i))
+      if (m_fitted.has(i))
         for (const Index wedge : m_wedges[i])
-          m_inertia[wedge] += s_inertia * area(scaled(m_result, i, m_exponent)) / 3;
+          m_inertia[wedge] += s_inertia * m_surface.area(i) / 3;
   }
 
   void take_samples()
   {
-    const std::vector<std::size_t> of_original = surfaces_of(m_original);
-    std::vector<std::array<Vector, 3>> searched;
-    std::vector<std::size_t> of_searched;
-    std::vector<Index> numbers;
-    for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (m_fronts[i] != Vector{}) {
-        searched.push_back(scaled(m_result, i, m_exponent));
-        of_searched.push_back(of_original[m_triangles[i]]);
-        numbers.push_back(i);
-      }
-    const Triangle_finder finder(std::move(searched), of_searched);
+    const std::vector<std::size_t> surfaces =
+        surfaces_of(m_original.triangles, m_surface.positions_of_original());
     m_moments.resize(m_result.triangles.size());
-    surface_fit::find_in_parallel(
-        m_original.triangles.size(),
-        [&](Index t) {
-          return m_is_left[t] ? std::array<Sample, 3>{} : samples_of(t, finder, of_original[t]);
+    m_surface.sample(
+        surfaces, [](Index) { return true; },
+        [&](Index t, const Triangle_finder& finder) {
+          return m_is_left[t] ? std::array<Sample, 3>{} : samples_of(t, finder, surfaces[t]);
         },
-        [&](const std::array<Sample, 3>& samples) {
-          for (const Sample& sample : samples)
-            if (sample.nearest)
-              add(sample, numbers[sample.nearest->triangle]);
-        });
+        [&](const Sample& sample, Index i) { add(sample, i); });
   }
 
   // Returns where the front of a triangle with such a normal points to.
@@ -245,16 +215,16 @@ private:
   std::array<Sample, 3> samples_of(Index t, const Triangle_finder& finder, std::size_t surface) const
   {
     std::array<Sample, 3> samples;
-    if (!has_normals(m_normals, t))
+    if (!m_normals.has(t))
       return samples;
-    const std::array<Vector, 3> corners = scaled(m_original, t, m_exponent);
-    const double weight = area(corners) / 3;
+    const Fitted_surface::Corners corners = m_surface.corners(m_original, t);
+    const double weight = surface_fit::area(corners) / 3;
     const int side = side_of(cosines(unit_normal(m_original, t), m_normals, t));
     std::array<Vector, 3> normals;
     for (std::size_t k = 0; k < 3; ++k)
       normals[k] = unit(finite(normal_at(m_normals, t, k)));
     for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
-      const std::array<double, 3>& weights = surface_fit::s_sample_weights[j];
+      const std::array<double, 3>& weights = s_sample_weights[j];
       const Vector place = surface_fit::interpolated(corners, weights),
                    shown = unit(surface_fit::interpolated(normals, weights));
       samples[j] = {finder.nearest(place, surface, direction(shown, side)), shown, weight};
@@ -264,7 +234,7 @@ private:
 
   void add(const Sample& sample, Index i)
   {
-    if (m_sides[i] != 0 && m_sides[i] * dot(m_fronts[i], sample.value) >= s_cosine_of_sample)
+    if (m_sides[i] != 0 && cosine(i, sample.value) >= s_cosine_of_sample)
       m_moments[i].add(sample);
   }
 
@@ -307,7 +277,7 @@ private:
   }
 
   // The cosine between a normal and the side of a triangle that it shades.
-  double cosine(Index i, const Vector& normal) const { return m_sides[i] * dot(m_fronts[i], normal); }
+  double cosine(Index i, const Vector& normal) const { return m_sides[i] * dot(m_surface.normal(i), normal); }
 
   // By wedge as `whole` numbers them, the squared differences between the samples on the triangles there and
   // what these show with such normals of the wedges `m_wedges`.
@@ -334,12 +304,11 @@ private:
   // Unites the corners of a wedge at which triangles meet that turn little from one to the next.
   internal::Disjoint_sets smooth_parts() const
   {
-    const std::vector<Index_triple> triples =
-        in_positions(m_result.triangles, number_positions(m_result.points));
+    const std::vector<Index_triple> triples = in_positions(m_result.triangles, m_positions);
     internal::Disjoint_sets parts(3 * triples.size());
     internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
       const Index i = a.at_low / 3, j = b.at_low / 3;
-      if (m_sides[i] * cosine(j, m_fronts[i]) < s_cosine_of_split)
+      if (m_sides[i] * cosine(j, m_surface.normal(i)) < s_cosine_of_split)
         return;
       for (const auto& [of_a, of_b] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)})
         if (m_wedges[i][of_a % 3] == m_wedges[j][of_b % 3])
@@ -384,9 +353,9 @@ private:
           m_border_normals.push_back(Vector(m_border_normals[w]));
         }
         m_wedges[i][k] = found->second;
-        const double weight = m_sides[i] * area(scaled(m_result, i, m_exponent));
+        const double weight = m_sides[i] * m_surface.area(i);
         for (std::size_t axis = 0; axis < 3; ++axis)
-          means[found->second][axis] += weight * m_fronts[i][axis];
+          means[found->second][axis] += weight * m_surface.normal(i)[axis];
       }
     if (means.size() == count)
       return false;
@@ -424,12 +393,11 @@ private:
   {
     std::vector<char> result(normals.size(), true);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result.normals, i))
+      if (m_fitted.has(i))
         for (std::size_t k = 0; k < 3; ++k) {
           const Index w = m_wedges[i][k];
-          const double before =
-              m_sides[i] * dot(m_fronts[i], unit(finite(normal_at(m_result.normals, i, k))));
-          result[w] &= m_sides[i] * dot(m_fronts[i], normals[w]) >= std::min(s_cosine_of_sample, before);
+          const double before = cosine(i, unit(finite(normal_at(m_fitted, i, k))));
+          result[w] &= cosine(i, normals[w]) >= std::min(s_cosine_of_sample, before);
         }
     return result;
   }
@@ -463,31 +431,30 @@ private:
     std::vector<Index> numbers(fitted.size());
     for (std::size_t w = 0; w < fitted.size(); ++w)
       if (!is_kept[w]) {
-        numbers[w] = Index(m_result.normals.values.size());
-        m_result.normals.values.push_back(stored(fitted[w]));
+        numbers[w] = Index(m_fitted.values.size());
+        m_fitted.values.push_back(stored(fitted[w]));
       }
     std::size_t changed = 0;
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result.normals, i))
+      if (m_fitted.has(i))
         for (std::size_t k = 0; k < 3; ++k)
           if (const Index w = m_wedges[i][k]; !is_kept[w]) {
-            m_result.normals.of_triangle[i][k] = numbers[w];
+            m_fitted.of_triangle[i][k] = numbers[w];
             ++changed;
           }
-    Corner_values<3>& normals = m_result.normals;
     if (changed > 0)
-      normals = with_used(normals.values, std::move(normals.of_triangle), normals.missing);
+      m_fitted = with_used(m_fitted.values, std::move(m_fitted.of_triangle), m_fitted.missing);
     return changed;
   }
 
-  Triangle_soup& m_result;
-  const std::vector<Index>& m_triangles;
+  const Fitted_surface& m_surface;
+  const Triangle_soup& m_result;
   const Triangle_soup& m_original;
-  const Corner_values<3>& m_normals; // of the corners of the original
-  int m_exponent;
+  const Corner_values<3>& m_normals;  // of the corners of the original
+  Corner_values<3>& m_fitted;         // of those of the result
+  std::vector<Index> m_positions;     // of the vertices of the result
   std::vector<char> m_is_left;        // by triangle of the original: it is in the result with its normals
   std::vector<int> m_sides;           // by triangle of the result
-  std::vector<Vector> m_fronts;       // likewise
   std::vector<Index_triple> m_wedges; // likewise
   std::vector<surface_fit::Moments<3>> m_moments; // likewise
   std::vector<Vector> m_old;                      // by wedge, of length 1
@@ -499,11 +466,19 @@ private:
 
 } // namespace
 
+std::size_t fit_normals(const Fitted_surface& surface, const Corner_values<3>& normals,
+                        const std::vector<char>& stays, Corner_values<3>& fitted)
+{
+  return fitted.empty() ? 0 : Normal_fit(surface, normals, stays, fitted).run();
+}
+
 std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                         const std::vector<Index_triple>& corners, const Triangle_soup& original,
                         const Corner_values<3>& normals, const std::vector<char>& stays)
 {
-  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original, normals, stays).run();
+  const std::vector<Index> positions = number_positions(original.points);
+  return fit_normals(Fitted_surface(result, triangles, corners, original, positions), normals, stays,
+                     result.normals);
 }
 
 } // namespace selvedge

@@ -19,9 +19,6 @@ namespace selvedge {
 namespace {
 
 using shading::unit_normal;
-using shading::Vector;
-using surface_fit::area;
-using surface_fit::scaled;
 using Uv = std::array<double, 2>;
 
 // The weight of the coordinates as they are, relative to that of the samples around. It decides where there
@@ -31,19 +28,18 @@ constexpr double s_inertia_of_texture = 0.02;
 class Texture_fit
 {
 public:
-  Texture_fit(const Triangle_soup& result, const std::vector<Index>& triangles,
-              const std::vector<char>& is_free, const Triangle_soup& original)
-      : m_result(result), m_triangles(triangles), m_is_free(is_free), m_original(original),
-        m_exponent(surface_fit::exponent_of(original)), m_old(result.points.size()),
-        m_numbers(result.triangles.size())
+  Texture_fit(const Fitted_surface& surface, const std::vector<char>& is_free)
+      : m_surface(surface), m_result(surface.result()), m_original(surface.original()),
+        m_old(m_result.points.size()), m_numbers(m_result.triangles.size())
   {
+    const Triangle_soup& result = m_result;
     m_old.insert(m_old.end(), result.uvs.values.begin(), result.uvs.values.end());
     m_inertia.resize(m_old.size());
     m_is_fixed.resize(m_old.size(), true);
     for (Index i = 0; i < result.triangles.size(); ++i) {
-      if (!has_texture(result.uvs, i))
+      if (!result.uvs.has(i))
         continue;
-      const double inertia = s_inertia_of_texture * area(scaled(result, i, m_exponent)) / 3;
+      const double inertia = s_inertia_of_texture * surface.area(i) / 3;
       for (std::size_t k = 0; k < 3; ++k) {
         const Index v = result.triangles[i][k], uv = result.uvs.of_triangle[i][k];
         m_numbers[i][k] = is_free[v] ? v : Index(result.points.size() + uv);
@@ -67,11 +63,6 @@ public:
 private:
   using Sample = surface_fit::Sample<2>;
 
-  static bool has_texture(const Corner_values<2>& uvs, Index triangle)
-  {
-    return uvs.of_triangle[triangle][0] != uvs.missing;
-  }
-
   static const Uv& uv_at(const Corner_values<2>& uvs, Index triangle, std::size_t k)
   {
     return uvs.values[uvs.of_triangle[triangle][k]];
@@ -86,7 +77,7 @@ private:
   std::vector<std::size_t> charts() const
   {
     const std::vector<Index_triple> triples =
-        in_positions(m_original.triangles, number_positions(m_original.points));
+        in_positions(m_original.triangles, m_surface.positions_of_original());
     internal::Disjoint_sets sets(triples.size());
     const auto uv = [&](Index corner) { return uv_at(m_original.uvs, corner / 3, corner % 3); };
     internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
@@ -99,44 +90,47 @@ private:
     return result;
   }
 
+  bool is_free(Index i) const
+  {
+    return std::any_of(m_numbers[i].begin(), m_numbers[i].end(), [&](Index n) { return !m_is_fixed[n]; });
+  }
+
+  // Takes samples where they can count: not of charts without a free vertex, nor of triangles that are in the
+  // result as they were. The sample of such a one is on itself, where it moves nothing.
   void take_samples()
   {
     const std::vector<std::size_t> of_original = charts();
-    std::vector<std::array<Vector, 3>> searched;
-    std::vector<std::size_t> of_searched;
-    std::vector<Index> numbers;
-    std::vector<char> is_asked(m_original.triangles.size(), false); // by chart
-    m_moments.resize(m_result.triangles.size());
-    m_size.resize(m_result.triangles.size());
-    for (Index i = 0; i < m_result.triangles.size(); ++i) {
-      if (!has_texture(m_result.uvs, i) || unit_normal(m_result, i) == Vector{})
+    std::vector<char> is_asked(m_original.triangles.size(), false), // by chart
+        is_left(m_original.triangles.size(), false);
+    m_moments.resize(m_surface.size());
+    m_size.resize(m_surface.size());
+    for (Index i = 0; i < m_surface.size(); ++i) {
+      if (!m_result.uvs.has(i))
         continue;
-      searched.push_back(scaled(m_result, i, m_exponent));
-      of_searched.push_back(of_original[m_triangles[i]]);
-      numbers.push_back(i);
+      const Index t = m_surface.of_original(i);
+      is_asked[of_original[t]] |= is_free(i);
+      is_left[t] = !is_free(i) && !m_surface.is_changed(i);
       for (std::size_t k = 0; k < 3; ++k) {
-        is_asked[of_searched.back()] |= m_is_free[m_result.triangles[i][k]];
         const Uv &p = uv_at(m_result.uvs, i, k), &q = uv_at(m_result.uvs, i, (k + 1) % 3);
         m_size[i] = std::max(m_size[i], std::hypot(p[0] - q[0], p[1] - q[1]));
       }
     }
-    const Triangle_finder finder(std::move(searched), of_searched);
-    surface_fit::find_in_parallel(
-        m_original.triangles.size(),
-        [&](Index t) { return is_asked[of_original[t]] ? sample_of(t, finder, of_original[t]) : Sample(); },
-        [&](const Sample& sample) {
-          if (sample.nearest)
-            add(sample, numbers[sample.nearest->triangle]);
-        });
+    m_surface.sample(
+        of_original, [&](Index i) { return m_result.uvs.has(i); },
+        [&](Index t, const Triangle_finder& finder) {
+          const bool is_taken = is_asked[of_original[t]] && !is_left[t];
+          return std::array<Sample, 1>{is_taken ? sample_of(t, finder, of_original[t]) : Sample()};
+        },
+        [&](const Sample& sample, Index i) { add(sample, i); });
   }
 
   // The sample is in the middle of the triangle: one is enough where triangles of the result are larger.
   Sample sample_of(Index t, const Triangle_finder& finder, std::size_t chart) const
   {
     constexpr std::array<double, 3> middle = {1. / 3, 1. / 3, 1. / 3};
-    const std::array<Vector, 3> corners = scaled(m_original, t, m_exponent);
-    const double weight = area(corners);
-    if (!has_texture(m_original.uvs, t) || !(weight > 0))
+    const Fitted_surface::Corners corners = m_surface.corners(m_original, t);
+    const double weight = surface_fit::area(corners);
+    if (!m_original.uvs.has(t) || !(weight > 0))
       return {};
     return {finder.nearest(surface_fit::interpolated(corners, middle), chart, unit_normal(m_original, t)),
             surface_fit::interpolated(uvs_of(m_original, t), middle), weight};
@@ -188,14 +182,16 @@ private:
     for (std::size_t v = 0; v < result.size(); ++v)
       if (!m_is_fixed[v])
         place(v);
-    // Every round takes some vertex a step back, and all are right where they were.
+    // Every round takes some vertex a step back, and all are right where they were. A triangle around which
+    // none went back is as it was in the round before.
+    std::vector<char> is_moved(result.size(), true);
     for (bool is_any_back = true; is_any_back;) {
       is_any_back = false;
       std::vector<char> is_back(result.size(), false);
       for (Index i = 0; i < m_result.triangles.size(); ++i) {
-        if (!has_texture(m_result.uvs, i))
-          continue;
         const auto& [a, b, c] = m_numbers[i];
+        if (!m_result.uvs.has(i) || !(is_moved[a] || is_moved[b] || is_moved[c]))
+          continue;
         const CGAL::Orientation turn = orientation(m_old[a], m_old[b], m_old[c]);
         if (turn == CGAL::COLLINEAR || orientation(result[a], result[b], result[c]) == turn)
           continue;
@@ -208,16 +204,15 @@ private:
           place(v);
           is_any_back = true;
         }
+      is_moved = std::move(is_back);
     }
     result.resize(m_result.points.size());
     return result;
   }
 
+  const Fitted_surface& m_surface;
   const Triangle_soup& m_result;
-  const std::vector<Index>& m_triangles;
-  const std::vector<char>& m_is_free; // by vertex of the result
   const Triangle_soup& m_original;
-  int m_exponent;
   // The numbers of coordinates: those of free vertices, then those of the values of other corners.
   std::vector<Uv> m_old;
   std::vector<char> m_is_fixed;
@@ -229,13 +224,11 @@ private:
 
 } // namespace
 
-std::vector<std::array<double, 2>> fitted_texture(const Triangle_soup& result,
-                                                  const std::vector<Index>& triangles,
+std::vector<std::array<double, 2>> fitted_texture(const Fitted_surface& surface,
                                                   const std::vector<char>& is_free,
-                                                  const Triangle_soup& original,
                                                   const std::function<Uv(Index, const Uv&)>& stored)
 {
-  return Texture_fit(result, triangles, is_free, original).run(stored);
+  return Texture_fit(surface, is_free).run(stored);
 }
 
 } // namespace selvedge

@@ -10,9 +10,6 @@
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
-#include <oneapi/tbb/parallel_for.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -27,32 +24,7 @@
 namespace selvedge::surface_fit {
 
 using Vector = internal::Vector_of_doubles;
-using Corners = std::array<Vector, 3>;
-
-/// The weights of the corners at three points of a triangle, the mean of which integrates quadratic functions
-/// exactly.
-constexpr std::array<std::array<double, 3>, 3> s_sample_weights = {
-    {{1. / 6, 1. / 6, 2. / 3}, {1. / 6, 2. / 3, 1. / 6}, {2. / 3, 1. / 6, 1. / 6}}};
-
-/// Returns the power of two that brings coordinates to a size at which fourth powers of them are numbers.
-inline int exponent_of(const Triangle_soup& soup)
-{
-  double largest = 0;
-  for (const Point_3& point : soup.points)
-    for (int axis = 0; axis < 3; ++axis)
-      largest = std::max(largest, std::abs(point[axis]));
-  return largest > 0 ? -std::ilogb(largest) : 0;
-}
-
-/// Returns the corners of a triangle, multiplied by a power of two.
-inline Corners scaled(const Triangle_soup& soup, Index triangle, int exponent)
-{
-  Corners result;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      result[k][axis] = std::scalbn(soup.points[soup.triangles[triangle][k]][axis], exponent);
-  return result;
-}
+using Corners = Triangle_finder::Corners;
 
 inline double area(const Corners& corners)
 {
@@ -71,23 +43,6 @@ std::array<double, dimension> interpolated(const std::array<std::array<double, d
     for (std::size_t axis = 0; axis < dimension; ++axis)
       result[axis] += weights[k] * values[k][axis];
   return result;
-}
-
-/// Calls `find(triangle)` for many triangles at once, and `add` with what it returns in their order.
-template <class Find, class Add>
-void find_in_parallel(std::size_t triangles, const Find& find, const Add& add)
-{
-  constexpr std::size_t at_once = 16384;
-  std::vector<decltype(find(Index()))> found(std::min(at_once, triangles));
-  for (std::size_t first = 0; first < triangles; first += at_once) {
-    const std::size_t count = std::min(at_once, triangles - first);
-    tbb::parallel_for(std::size_t(0), count, Cancellation_scope::inherited([&](std::size_t j) {
-                        found[j] = find(Index(first + j));
-                      }));
-    Cancellation_scope::check();
-    for (std::size_t j = 0; j < count; ++j)
-      add(found[j]);
-  }
 }
 
 /// A value of the original, and what it stands for in the result: nothing if there is no nearest triangle.

@@ -17,6 +17,10 @@ namespace selvedge {
 /// **Complexity** O(n log n).
 std::vector<std::size_t> surfaces_of(const Triangle_soup& soup);
 
+/// Likewise, where the positions of the vertices (`number_positions`) are known.
+std::vector<std::size_t> surfaces_of(const std::vector<Index_triple>& triangles,
+                                     const std::vector<Index>& positions);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SRC_SOUP_SURFACES_OF_H

@@ -237,6 +237,7 @@ group(
      "a line along which a pole goes stays where nothing differs"),
     ("return may_take_spokes(mover, get(state.points, target(h, state.mesh))) ? Line_refusal::none", "return true ? Line_refusal::none",
      "what a cut has passed is far from it when its end has moved"),
+    ("(is_line_at_start && lines.is_line_at_target(to_apex))", "false", "a face between two lines and a spoke vanishes"),
 )
 group(
     "src/soup/keeps_pieces.cpp",
@@ -348,9 +349,9 @@ group("src/soup/fit_normals.cpp", ("fitted_shading_test",),
       ("m_is_fixed[w] |= !is_free[w];", "", "triangles get other normals where nothing has changed"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
       (" && is_near_on_border(w, fitted[w])", "", "a face is shaded as the narrow edge of cloth that it replaces"),
-      ("of_original = surfaces_of(m_original);", "of_original(m_original.triangles.size(), 0);", "a layer is shaded as the one beside it"),
+      ("surfaces_of(m_original.triangles, m_surface.positions_of_original())", "std::vector<std::size_t>(m_original.triangles.size(), 0)", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
-      ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
+      ("keys.emplace_back(m_positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
       ("if (split_wedges(fitted))", "if (false)", "an edge shades round where its bevel is gone"),
       ("errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"))
@@ -358,7 +359,11 @@ group("src/soup/fit_texture.cpp", ("fit_texture_test",),
       ("orientation(result[a], result[b], result[c]) == turn", "true", "a triangle of the texture turns over where it is fitted"),
       ("if (is_within(uv))", "if (true)", "a fitted texture leaves the image"),
       ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
-      ("<= m_size[i]", "<= 1e300", "a texture is fitted to what lies beyond a cut"))
+      ("<= m_size[i]", "<= 1e300", "a texture is fitted to what lies beyond a cut"),
+      ("|| !(is_moved[a] || is_moved[b] || is_moved[c])", "|| !is_moved[a]", "a triangle of the texture turns over after a step back"),
+      ("!is_free(i) && !m_surface.is_changed(i)", "!is_free(i)", "a face that has changed is no sample of the texture"))
+group("src/simplify/simplify_soup.cpp", ("fit_texture_test",),
+      ("if (m_options.are_values_fitted)", "if (true)", "results that are thrown away are fitted"))
 group("src/files/triangulate_polygon.cpp", ("mesh_files_content_test",),
       ("(is_in(m_points[middle]) ||", "(", "a corner in the middle of others obstructs no ear"),
       ("b.y() > a.y() ? box.xmin() : box.xmax()", "b.y() > a.y() ? box.xmax() : box.xmin()",
@@ -425,7 +430,7 @@ group(
      "weights are mixed by their places, not by their joints"),
     ("if (users[instance.block] > 1) {", "if (false) {", "nodes that share a mesh share new places"),
     ("normalize(column, numbers_of_own, result);", "normalize(column, result, result);", "the sign of a tangent is mixed"),
-    ("result[i] = i == 0 ? coordinate : 1 - coordinate;", "result[i] = coordinate;", "texture upside down"),
+    ("return component == 0 ? result : 1 - result;", "return result;", "texture upside down"),
 )
 for file, *entry in (
     ("src/soup/flat_shading.cpp", "row.normal == bytes.normal && row.targets != bytes.targets", "false",
@@ -1538,8 +1543,8 @@ group(
 group(
     "src/soup/surfaces_of.cpp",
     ("drop_parts_test", "layer_order_test"),
-    ("positions = number_positions(soup.points);",
-     "positions = [&] { std::vector<Index> all(soup.points.size()); std::iota(all.begin(), all.end(), 0); return all; }();",
+    ("return surfaces_of(soup.triangles, number_positions(soup.points));",
+     "std::vector<Index> all(soup.points.size()); std::iota(all.begin(), all.end(), 0); return surfaces_of(soup.triangles, all);",
      "surfaces are connected by vertex numbers"),
 )
 group(

@@ -4,6 +4,7 @@
 // Texture coordinates of vertices at new places, fitted to those of the original.
 
 #include "soup/fit_texture.h"
+#include "soup/number_positions.h"
 #include "support/soups.h"
 
 #include <selvedge/prepare.h>
@@ -81,9 +82,20 @@ Fan fan(int size, const Uv& uv_of_middle)
   return fan;
 }
 
+template <class Stored>
+Uv fitted_middle(const Fan& fan, const Stored& stored)
+{
+  std::vector<Index_triple> corners;
+  for (const Index t : fan.triangles)
+    corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  const std::vector<Index> positions = number_positions(fan.original.points);
+  const Fitted_surface surface(fan.result, fan.triangles, corners, fan.original, positions);
+  return fitted_texture(surface, fan.is_free, stored)[4];
+}
+
 Uv fitted_middle(const Fan& fan)
 {
-  return fitted_texture(fan.result, fan.triangles, fan.is_free, fan.original, unrounded)[4];
+  return fitted_middle(fan, unrounded);
 }
 
 TEST(FitTexture, DisplacesTheTextureLessThanItsValueAtTheVertexDoes)
@@ -116,16 +128,35 @@ TEST(FitTexture, IsTheLeastOfAllDisplacements)
 
 TEST(FitTexture, TurnsNoTriangleOverAndGoesAPartOfTheWay)
 {
+  for (const double before : {16, 12}) { // which need one halving, and two
+    Fan fan = test::fan(8, {before, 4});
+    // The original says that the middle belongs beyond the side u = 0.
+    for (Uv& uv : fan.original.uvs.values)
+      uv[0] = 64 - 96 * std::sin(uv[0] / 64 * 3.141592653589793);
+    for (std::size_t v = 0; v < 4; ++v)
+      fan.result.uvs.values[v][0] = v == 1 || v == 2 ? 64 : 0;
+    const Uv fitted = fitted_middle(fan);
+    EXPECT_NE(fitted[0], before);
+    EXPECT_GT(fitted[0], 0);
+    EXPECT_LT(fitted[0], 64);
+  }
+}
+
+// A face that is elsewhere now is a sample where it was, though none of its vertices is at a new place.
+TEST(FitTexture, AsksFacesThatHaveChanged)
+{
   Fan fan = test::fan(8, {16, 4});
-  // The original says that the middle belongs beyond the side u = 0.
-  for (Uv& uv : fan.original.uvs.values)
-    uv[0] = 64 - 96 * std::sin(uv[0] / 64 * 3.141592653589793);
-  for (std::size_t v = 0; v < 4; ++v)
-    fan.result.uvs.values[v][0] = v == 1 || v == 2 ? 64 : 0;
+  fan.result.points.emplace_back(6, 4, 0);
+  fan.result.uvs.values.push_back({36, 4});
+  fan.result.triangles[1] = {1, 2, 5};
+  fan.result.triangles.insert(fan.result.triangles.end(), {{1, 5, 4}, {5, 2, 4}});
+  fan.result.uvs.of_triangle = fan.result.triangles;
+  fan.is_free.push_back(false);
+  fan.triangles = {0, 1, 2, 3, 4, 5};
   const Uv fitted = fitted_middle(fan);
-  EXPECT_NE(fitted[0], 16);
-  EXPECT_GT(fitted[0], 0);
-  EXPECT_LT(fitted[0], 64);
+  EXPECT_NE(fitted, (Uv{16, 4}));
+  fan.triangles[1] = 60;
+  EXPECT_EQ(fitted_middle(fan), fitted);
 }
 
 TEST(FitTexture, StaysInTheRangeOfTheOriginal)
@@ -179,8 +210,40 @@ TEST(FitTexture, GivesWhatIsStored)
 {
   const Fan fan = test::fan(8, {16, 4});
   const auto whole = [](Index, const Uv& uv) { return Uv{std::nearbyint(uv[0]), std::nearbyint(uv[1])}; };
-  const Uv fitted = fitted_texture(fan.result, fan.triangles, fan.is_free, fan.original, whole)[4];
+  const Uv fitted = fitted_middle(fan, whole);
   EXPECT_EQ(fitted, (Uv{std::nearbyint(fitted_middle(fan)[0]), 4}));
+}
+
+TEST(FitTexture, IsDoneLaterAsItIsAtOnce)
+{
+  Triangle_soup soup = stretched_sheet(24);
+  for (Point_3& p : soup.points) {
+    p = Point_3(p.x(), p.y(), std::sin(p.x()));
+    const double slope = std::cos(p.x()), length = std::hypot(slope, 1);
+    soup.normals.values.push_back({-slope / length, 0, 1 / length});
+  }
+  soup.normals.of_triangle = soup.triangles;
+  Prepare_options prepare_options;
+  prepare_options.normals = Normals_choice::automatic;
+  const Prepared_soup prepared = prepare(soup, prepare_options);
+  Simplify_options options;
+  options.ratio = 0.2;
+  options.placement = Placement::optimal;
+  const Simplified_soup at_once = simplify_soup(prepared, options);
+  options.are_values_fitted = false;
+  Simplified_soup later = simplify_soup(prepared, options);
+  EXPECT_EQ(later.fitted_texture + later.fitted_normals, 0u);
+  EXPECT_NE(later.soup.uvs.values, at_once.soup.uvs.values);
+  EXPECT_NE(later.soup.normals.values, at_once.soup.normals.values);
+  fit_values(later, prepared);
+  EXPECT_GT(later.fitted_texture, 0u);
+  EXPECT_GT(later.fitted_normals, 0u);
+  EXPECT_EQ(later.fitted_texture, at_once.fitted_texture);
+  EXPECT_EQ(later.fitted_normals, at_once.fitted_normals);
+  EXPECT_EQ(later.soup.uvs.values, at_once.soup.uvs.values);
+  EXPECT_EQ(later.soup.uvs.of_triangle, at_once.soup.uvs.of_triangle);
+  EXPECT_EQ(later.soup.normals.values, at_once.soup.normals.values);
+  EXPECT_EQ(later.soup.normals.of_triangle, at_once.soup.normals.of_triangle);
 }
 
 TEST(FitTexture, IsDoneAtNewPlacesAlone)
