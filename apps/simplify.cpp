@@ -61,11 +61,8 @@ public:
         m_error_search.emplace(*m_request.options.max_error);
       const Triangle_soup& soup = m_input.prepared.soup;
       m_guarded_poses = key_poses(soup, poses_guarded_first(m_request, soup.poses.size()));
-      std::vector<Level> levels;
-      do {
-        levels = reduce();
-        judge(levels);
-      } while (guard_more_poses(levels) || advance_error_search(levels) || keep_shape(levels));
+      std::vector<Level> levels = judged_levels();
+      finish(levels);
       write(levels);
       report(levels);
       return m_outcome.exit_code();
@@ -83,6 +80,51 @@ public:
   }
 
 private:
+  // What a reduction has come to, and was judged.
+  struct Attempt
+  {
+    std::vector<Level> levels;
+    Outcome outcome;
+    std::string log;
+    std::vector<Soup_collapse> collapses;
+    Progression progression;
+  };
+
+  // Reduces and judges until no other reduction is due. Where shape was to be kept in a second one, and that
+  // is interrupted, the first one is what was reached.
+  std::vector<Level> judged_levels()
+  {
+    try {
+      std::vector<Level> levels;
+      do {
+        levels = reduce();
+        if (m_first && m_is_kept)
+          throw Interrupted("interrupted in the second reduction");
+        judge(levels);
+      } while (guard_more_poses(levels) || advance_error_search(levels) || keep_shape(levels));
+      return levels;
+    } catch (const Interrupted&) {
+      if (!m_first)
+        throw;
+    }
+    m_is_kept = true;
+    tell_of_stop();
+    m_outcome = m_first->outcome;
+    m_outcome.is_interrupted = true;
+    m_log.str(m_first->log);
+    m_collapses = std::move(m_first->collapses);
+    m_progression = std::move(m_first->progression);
+    for (Level& level : m_first->levels)
+      level.result.report.is_stopped = !level.result.report.is_reached();
+    return std::move(m_first->levels);
+  }
+
+  void tell_of_stop()
+  {
+    if (!std::exchange(m_is_stop_told, true))
+      m_bar.complain("stopping: what was reached is judged and written next; interrupt again to end at once");
+  }
+
   // Adds the poses in which the judge found new pairs or pieces too near to those that are guarded. Returns
   // whether there are any, so that the reduction is to be done again.
   bool guard_more_poses(const std::vector<Level>& levels)
@@ -116,14 +158,17 @@ private:
 
   // Where the target was missed and the surface was flattened for it, has the next reduction end before.
   // Returns whether there is to be one.
-  bool keep_shape(const std::vector<Level>& levels)
+  bool keep_shape(std::vector<Level>& levels)
   {
     if (!m_missed_target || !m_outcome.is_accepted)
       return false;
     std::vector<Missed_target::Judged> judged;
     for (const Level& level : levels)
       judged.push_back({level.result, level.verification.distances->original_to_result});
-    return m_missed_target->advance(judged);
+    if (!m_missed_target->advance(judged))
+      return false;
+    m_first = {std::move(levels), m_outcome, m_log.str(), std::move(m_collapses), std::move(m_progression)};
+    return true;
   }
 
   // Returns the options of the next reduction, but for what is told of its collapses.
@@ -139,14 +184,13 @@ private:
     if (!is_gltf(output_format(m_request)))
       options.instances = Instances::apart;
     options.is_history_kept = !m_request.html.empty();
+    options.are_values_fitted = false; // `finish` does it
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
       m_is_kept = true;
       if (!is_interrupted())
         return false;
-      if (!std::exchange(m_is_stop_told, true))
-        m_bar.complain(
-            "stopping: what was reached is judged and written next; interrupt again to end at once");
+      tell_of_stop();
       return true;
     };
     return options;
@@ -229,14 +273,24 @@ private:
       level.verification = verify(level.result, m_input.prepared);
       if (has_own_error(m_request))
         level.distances_anywhere = distances_anywhere(level.result.soup, m_input.prepared.soup);
-      if (m_input.polygons > 0) // otherwise the soup need not be merged and copied for it
-        level.polygons = {m_input.polygons,
-                          written_polygons(written(level.result), output_format(m_request))};
       m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
     }
     m_seconds["verify"] += stopwatch.seconds();
+  }
+
+  // Does what the results that are kept need, and the judge does not look at.
+  void finish(std::vector<Level>& levels)
+  {
+    const internal::Stopwatch stopwatch;
+    for (Level& level : levels) {
+      fit_values(level.result, m_input.prepared, m_request.intent);
+      if (m_input.polygons > 0) // otherwise the soup need not be merged and copied for it
+        level.polygons = {m_input.polygons,
+                          written_polygons(written(level.result), output_format(m_request))};
+    }
+    m_seconds["weld"] += stopwatch.seconds();
   }
 
   // Has a mesh refer to the same files from another output. So far it names those to which the first output
@@ -449,6 +503,7 @@ private:
   std::ostringstream m_log; // if it is written
   std::vector<std::size_t> m_guarded_poses;
   std::optional<Missed_target> m_missed_target; // where shape is kept
+  std::optional<Attempt> m_first;               // where it is kept in a second one
   std::optional<Error_search> m_error_search;   // where the error is to be kept everywhere
   std::vector<Soup_collapse> m_collapses;       // if a page shows them
   Progression m_progression;                    // if it is written

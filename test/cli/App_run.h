@@ -83,12 +83,15 @@ public:
   App_process(const App_process&) = delete;
   App_process& operator=(const App_process&) = delete;
 
-  /// Reads the terminal until it has shown `text`; false when the app ends before, or in five minutes.
+  /// Reads the terminal until it has shown `text`, after all that it was read for before; false when the app
+  /// ends first, or in five minutes.
   bool shows(const std::string& text)
   {
-    while (m_shown.find(text) == std::string::npos)
+    std::size_t place;
+    while ((place = m_shown.find(text, m_read)) == std::string::npos)
       if (!read_terminal())
         return false;
+    m_read = place + text.size();
     return true;
   }
 
@@ -129,6 +132,7 @@ private:
   pid_t m_id = 0;
   int m_terminal = -1;
   std::string m_shown;
+  std::size_t m_read = 0; // of what was shown, up to the last text that was waited for
 };
 
 struct App_result

@@ -6,6 +6,8 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
+#include <nlohmann/json.hpp>
+
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -52,6 +54,34 @@ TEST(App_interruption, WritesAndVerifiesWhatWasReached)
     EXPECT_LT(after.triangles.size(), before.triangles.size());
     EXPECT_GT(after.triangles.size(), before.triangles.size() / 1000);
     EXPECT_TRUE(verify(after, before).accepted());
+  }
+}
+
+// Where the target was missed, a second reduction ends before the last faces, which cost shape.
+TEST(App_interruption, OfASecondReductionWritesTheFirst)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 20'000), out = folder / "out.obj",
+                    log = folder / "out.log", report = folder / "report.json";
+  const std::vector<std::string> command{"simplify", in,      "-o", out,        "--ratio",
+                                         "0.001",    "--log", log,  "--report", report};
+  const auto json = [&] { return nlohmann::json::parse(contents_of(report)); };
+  EXPECT_EQ(run_app(command).code, 0);
+  const std::size_t within_reach = json().at("target").at("within_reach");
+  EXPECT_GT(json().at("faces").at("output"), within_reach);
+  for (const std::string phase : {"sewing and indexing", "removed/s"}) {
+    App_process process(command, true);
+    ASSERT_TRUE(process.shows("judging the result")) << process.err();
+    ASSERT_TRUE(process.shows(phase)) << process.err();
+    process.send(SIGINT);
+    EXPECT_TRUE(process.shows("selvedge: stopping: ")) << process.err();
+    EXPECT_EQ(process.wait(), 5) << process.err();
+    EXPECT_NE(process.err().find("selvedge: interrupted at"), std::string::npos) << process.err();
+    EXPECT_EQ(json().at("faces").at("output"), within_reach);
+    EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
+    EXPECT_GT(json().at("vertices").at("fitted_texture"), 0);
+    EXPECT_EQ(read_mesh(out).soup.triangles.size(), within_reach);
+    EXPECT_EQ(run_app({"replay", in, log}).code, 0);
   }
 }
 
