@@ -17,9 +17,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -124,6 +126,79 @@ TEST(Spokes, ReplayKnowsThem)
   EXPECT_EQ(first_violation(two, "c 1 2\n", 1), std::nullopt) << "the end of a cut";
   EXPECT_EQ(first_violation(two, "c 1 0\n", 1), Violation_kind::line);
   EXPECT_EQ(first_violation(two, "c 0 1\n", 1), std::nullopt) << "the cut is gone";
+}
+
+/// Such a disc in two groups: all of a sector has that of its triangle at the centre, or the triangle alone.
+Triangle_soup disc_in_groups(const std::vector<Index>& of_triangle, const std::vector<Index>& groups,
+                             bool has_sectors)
+{
+  Triangle_soup result = disc(of_triangle);
+  result.groups.names = {"one", "other"};
+  for (const Index group : groups)
+    for (int k = 0; k < 3; ++k)
+      result.groups.of_triangle.push_back(k == 0 || has_sectors ? group : 0);
+  return result;
+}
+
+/// Whether the rule of a reduction lets a vertex go to another, by their numbers, for those inside a disc.
+std::map<std::pair<Index, Index>, bool> moves_inside(const Triangle_soup& soup)
+{
+  const Prepared_soup prepared = prepare(soup);
+  const Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen, prepared.obstacle);
+  const auto& mesh = working.mesh();
+  Border_rule_options options;
+  options.max_seam_turn = 180;
+  options.max_drift = 10;
+  Border_rule<Working_mesh::Mesh> rule(mesh, options);
+  for (const auto e : working.constraints().line_edges)
+    rule.mark(e);
+  for (const auto spoke : working.constraints().spokes)
+    rule.mark_at_target(spoke);
+  const std::vector<Index> of_soup = working.vertices_of_soup(prepared.obstacle);
+  const Index first_outside = Index(soup.points.size() / 2 + 1);
+  std::map<std::pair<Index, Index>, bool> result;
+  for (const auto h : mesh.halfedges()) {
+    const Index mover = of_soup[mesh.source(h)], goal = of_soup[mesh.target(h)];
+    if (mover < first_outside && goal < first_outside)
+      result[{mover, goal}] = rule.may_move(h);
+  }
+  return result;
+}
+
+// The line 1 – 0 – 4 parts two groups. At its vertex 0, a cut through the texture ends.
+TEST(Spokes, APoleOnALineStays)
+{
+  const std::vector<Index> groups = {0, 0, 0, 1, 1, 1};
+  const Triangle_soup without = disc_in_groups({0, 0, 0, 0, 0, 0}, groups, true),
+                      with_one = disc_in_groups({0, 1, 1, 0, 0, 0}, groups, true),
+                      with_two = disc_in_groups({0, 1, 1, 1, 1, 0}, groups, true);
+  EXPECT_EQ(first_violation(without, "c 0 1\n", 1), std::nullopt);
+  for (const Triangle_soup& soup : {with_one, with_two}) {
+    EXPECT_EQ(first_violation(soup, "c 0 1\n", 1), Violation_kind::line);
+    EXPECT_EQ(first_violation(soup, "c 0 2\n", 1), Violation_kind::line);
+    EXPECT_EQ(first_violation(soup, "c 2 0\n", 1), Violation_kind::line) << "along a spoke to its pole";
+    EXPECT_EQ(first_violation(soup, "c 1 0\n", 1), std::nullopt) << "along the line to the pole";
+    EXPECT_EQ(first_violation(soup, "c 2 1\n", 1), std::nullopt) << "the spoke becomes a part of the line";
+  }
+  EXPECT_EQ(first_violation(with_one, "c 2 1\nc 0 1\n", 2), std::nullopt) << "a vertex of the line is left";
+  EXPECT_EQ(first_violation(with_two, "c 2 1\nc 0 1\n", 2), Violation_kind::line) << "a spoke is left";
+  for (const Triangle_soup& soup : {without, with_one, with_two})
+    for (const auto& [move, may_move] : moves_inside(soup)) {
+      const std::string step = "c " + std::to_string(move.first) + ' ' + std::to_string(move.second) + '\n';
+      EXPECT_EQ(may_move, first_violation(soup, step, 1) != Violation_kind::line) << step;
+    }
+}
+
+// The line 0 – 1 – 2 – 3 – 0 goes around two triangles at the centre, between which the texture may be cut.
+TEST(Spokes, NoFaceBetweenTwoLinesAndASpokeVanishes)
+{
+  const std::vector<Index> groups = {1, 1, 0, 0, 0, 0};
+  const Triangle_soup without = disc_in_groups({0, 0, 0, 0, 0, 0}, groups, false),
+                      with = disc_in_groups({0, 1, 0, 0, 0, 0}, groups, false);
+  for (const auto& move : {std::pair<Index, Index>(1, 0), {1, 2}, {3, 0}, {3, 2}}) {
+    EXPECT_TRUE(moves_inside(without).at(move)) << move.first << ' ' << move.second;
+    EXPECT_FALSE(moves_inside(with).at(move)) << move.first << ' ' << move.second;
+  }
 }
 
 /// A bumpy sheet of 24 × 24 squares with cuts of four edges into its texture, along x = 4, 8, … 20, and the
