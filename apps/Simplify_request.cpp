@@ -10,7 +10,6 @@
 #include "subcommands.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/Surface_mesh_simplification/Border_rule.h>
 #include <selvedge/cells.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/poses.h>
@@ -176,9 +175,10 @@ void check_use(const Simplify_request& request)
   if (request.faces_per_cluster && request.options.index != Face_index::clusters)
     throw Argument_error(
         "--cluster-size: the packed index has no clusters; leave it out, or give --index clusters");
-  if (request.corner_height && request.options.max_border_turn >= Border_rule_options::turn_of_low_corner)
-    throw Argument_error("--corner-height: with such a --border-turn, a border may turn as far at any corner "
-                         "as at a low one; leave out one of the two");
+  if (request.corner_height && request.options.max_border_turn == 180 &&
+      request.options.max_normal_change == 180)
+    throw Argument_error("--corner-height: with such a --border-turn and --normal-change, borders and faces "
+                         "may turn as far at any corner as at a low one; leave it out");
   if (request.is_sewn && output_format(request) == Mesh_format::stl)
     throw Argument_error("--sewn: an STL file has no vertices that could be merged; leave it out, or choose "
                          "another format");

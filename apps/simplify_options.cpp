@@ -179,7 +179,7 @@ void add_options(CLI::App& command, Simplify_request& request)
   const char* const limits = "Limits of a collapse";
   command
       .add_option("--normal-change", options.max_normal_change,
-                  "Largest turn of the normal of a face, in degrees.")
+                  "Largest turn of the normal of a face that is not low, in degrees.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
@@ -203,9 +203,9 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(limits);
   command
       .add_option("--corner-height", request.corner_height,
-                  "Height up to which a corner of a border is low, as a share of the diagonal. There the "
-                  "border may turn by 50 degrees, so that open ends of pipes lose vertices, too. 0 makes no "
-                  "corner low.")
+                  "Height up to which a corner of a border or of a face is low, as a share of the diagonal. "
+                  "There both may turn by any angle, so that small rings, bevels and parts lose faces, too. "
+                  "0 makes none low.")
       ->check(in_range(0))
       ->type_name("D")
       ->default_str(with_digits(options.max_corner_height))

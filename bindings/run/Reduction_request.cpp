@@ -4,7 +4,6 @@
 #include "Reduction_request.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/Surface_mesh_simplification/Border_rule.h>
 
 #include <nlohmann/json.hpp>
 
@@ -346,10 +345,10 @@ void Reduction_request::check() const
       options.faces_per_cluster != Simplify_options().faces_per_cluster)
     throw Argument_error(
         "cluster_size: the packed index has no clusters; leave it out, or give clusters as index");
-  if (options.max_corner_height != Simplify_options().max_corner_height &&
-      options.max_border_turn >= Border_rule_options::turn_of_low_corner)
-    throw Argument_error("corner_height: with such a border_turn, a border may turn as far at any corner as "
-                         "at a low one; leave out one of the two");
+  if (options.max_corner_height != Simplify_options().max_corner_height && options.max_border_turn == 180 &&
+      options.max_normal_change == 180)
+    throw Argument_error("corner_height: with such a border_turn and normal_change, borders and faces may "
+                         "turn as far at any corner as at a low one; leave it out");
   for (const Simplify_intent::Part_ratio& part : intent.ratios)
     if (std::find(intent.kept.begin(), intent.kept.end(), part.name) != intent.kept.end())
       throw Argument_error("keep: no face of '" + part.name +

@@ -18,8 +18,9 @@ struct Reduction_limits
   std::optional<double> normal_change; ///< degrees
   std::optional<double> aspect_ratio;  ///< from 0 to 1, as `aspect_ratio()` defines it
   std::optional<double> border_turn;   ///< degrees
-  std::optional<double> corner_height; ///< share of the diagonal; lets borders turn by 50° at lower corners
-  std::optional<double> seam_turn;     ///< degrees
+  std::optional<double>
+      corner_height;               ///< share of the diagonal; lets borders and normals turn at lower corners
+  std::optional<double> seam_turn; ///< degrees
   std::optional<double> border_drift;  ///< share of the diagonal of the bounding box
   std::optional<double> weld_distance; ///< length in the unit of the coordinates
   std::optional<double> clearance;     ///< likewise
@@ -31,7 +32,7 @@ struct Limit_description
 {
   std::optional<double> Reduction_limits::*value;
   const char* key = "";  ///< in the `limit` lines of a log, in JSON, and as the name of its `Violation_kind`
-                         ///< (except `corner_height`, which only eases `border_turn`)
+                         ///< (except `corner_height`, which only eases two others)
   const char* unit = ""; ///< follows the number in a sentence
   const char* bounds = ""; ///< what the limit bounds
   const char* broken = ""; ///< what a step does that breaks the limit; the number and its unit follow
@@ -45,7 +46,8 @@ inline constexpr std::array<Limit_description, 8> limit_descriptions{
      {&Reduction_limits::border_turn, "border_turn", "°",
       "how sharp a corner of a border a collapse cuts off", "the border turns there by more than"},
      {&Reduction_limits::corner_height, "corner_height", " of the diagonal",
-      "how high a corner of a border may be where it turns by more than border_turn, up to 50°", ""},
+      "how high a corner may be where a border or a normal turns by more than border_turn or normal_change",
+      ""},
      {&Reduction_limits::seam_turn, "seam_turn", "°", "how sharp a corner of a seam a collapse cuts off",
       "the seam turns there by more than"},
      {&Reduction_limits::border_drift, "border_drift", " of the diagonal",

@@ -87,7 +87,8 @@ struct Simplify_options
   /// is lost or gained anywhere. (The original is the mesh as `prepare` left it.)
   std::optional<double> max_error;
 
-  /// The largest change of a face's normal in one collapse, in degrees from 0 to 180. The default lets small
+  /// The largest change of a face's normal in one collapse, in degrees from 0 to 180, where the face is not
+  /// low (`max_corner_height`). The default lets small
   /// bumps and hollows go, so that the surface gets the faces that it needs. With 45°, the value of Derichs,
   /// Misiak and Fuhrmann, the error at 3 % of the faces is up to a fifth larger; at 10 % it is within 2 %.
   /// With 90°, lips open and ears lose their shape.
@@ -110,9 +111,10 @@ struct Simplify_options
   double max_border_turn = 30;
 
   /// The largest height of a *low corner*, as a share of the diagonal of the bounding box, at least 0. There
-  /// a border may turn by up to 50° (`Border_rule_options::turn_of_low_corner`): no original vertex of it is
-  /// farther than this from the segment that replaces it. So the open ends of pipes need not keep all their
-  /// vertices, and rectangular pieces keep their corners, however small. 0 makes no corner low.
+  /// a border may turn by any angle: no original vertex of it is farther than this from the segment that
+  /// replaces it. So may a face: its corner that moves is no farther from the line through the other two,
+  /// before and after. What is so small is not seen, and the open ends of pipes, bevels and small parts need
+  /// not keep faces that the rest needs more. 0 makes no corner low.
   double max_corner_height = 0.0025;
 
   /// The largest turn that a line inside the surface may have, likewise: a sewn seam, or a chain of edges

@@ -94,8 +94,10 @@ namespace selvedge {
 ///   `border_drift`, `weld_distance`, `clearance`). NUMBER is at least 0; `Reduction_limits` has the units.
 ///   The diagonal is that of the bounding box of the vertices that triangles use, after all snaps. A limit
 ///   that is not declared is not judged, except that a log with snaps must declare its `weld_distance`, and
-///   that `corner_height` only eases `border_turn`: a border may turn by up to 50° where every vertex that it
-///   has had lies within this height of the segment that replaces it; without it, it may not. When
+///   that `corner_height` only eases `border_turn` and `normal_change`: a border may turn by any angle where
+///   every vertex that it has had lies within this height of the segment that replaces it, and the normal of
+///   a triangle where its corner that moves lies within this height of the line through the others before and
+///   after; without it, they may not. When
 ///   `border_turn`, `seam_turn` or `border_drift` is declared, vertices of borders and seams must also stay
 ///   on their lines.
 /// - *s*, a snap: the vertices at the position of MOVED go in a straight line to the position of KEPT, their

@@ -13,7 +13,6 @@ namespace selvedge::reference {
 namespace {
 
 constexpr double s_degree = 3.14159265358979323846 / 180;
-constexpr double s_turn_of_low_corner = 50;
 // More than rounding adds to the distance from a point to a segment, as a share of the diagonal.
 constexpr double s_rounded_distance = 0x1p-46;
 
@@ -113,6 +112,11 @@ void Limits::set_diagonal(const Coordinates& low, const Coordinates& high)
   m_diagonal = length(difference(scaled(high), scaled(low)));
 }
 
+double Limits::highest(double limit) const
+{
+  return (limit * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
+}
+
 Coordinates Limits::scaled(const Coordinates& point) const
 {
   return {std::ldexp(point[0], -m_exponent), std::ldexp(point[1], -m_exponent),
@@ -144,8 +148,7 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
     return edge.neighbour == other && !edge.is_line() && edge.is_line_beyond();
   });
   const auto is_far = [&](const Coordinates& q, double limit, const Coordinates& u) {
-    return distance_to_segment(scaled(q), u, scaled(place)) >
-           (limit * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
+    return distance_to_segment(scaled(q), u, scaled(place)) > highest(limit);
   };
   const auto drifts_within = [&](double limit, Index neighbour, const Coordinates& u) {
     const auto* passed = complex.passed(mover, neighbour);
@@ -174,18 +177,14 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   const Coordinates m = scaled(complex.point(mover)), u = scaled(complex.point(behind.neighbour)),
                     p = scaled(place);
   const auto& turn = ahead->is_border() ? m_limits.border_turn : m_limits.seam_turn;
-  const auto turns_within = [&](double degrees) {
-    return is_angle_within(difference(m, u), difference(p, m), degrees);
-  };
   const auto line_drifts_within = [&](double limit) {
     return !is_far(complex.point(mover), limit, u) && drifts_within(limit, behind.neighbour, u) &&
            drifts_within(limit, other, u);
   };
-  if (turn && !turns_within(*turn)) {
+  if (turn && !is_angle_within(difference(m, u), difference(p, m), *turn)) {
     if (!ahead->is_border())
       return Violation_kind::seam_turn;
-    if (!m_limits.corner_height || !turns_within(s_turn_of_low_corner) ||
-        !line_drifts_within(*m_limits.corner_height))
+    if (!m_limits.corner_height || !line_drifts_within(*m_limits.corner_height))
       return Violation_kind::border_turn;
   }
   if (m_limits.border_drift && !line_drifts_within(*m_limits.border_drift))
@@ -251,9 +250,12 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
         least_after = ratio;
       const Coordinates before = cross(difference(a, m), difference(b, m));
       const Coordinates after = cross(difference(a, goal), difference(b, goal));
+      const bool is_low =
+          m_limits.corner_height && std::max(length(before), length(after)) <=
+                                        highest(*m_limits.corner_height) * length(difference(b, a));
       if (m_limits.normal_change && length(before) > 0)
-        is_turned =
-            is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_limits.normal_change);
+        is_turned = is_turned || !(length(after) > 0) ||
+                    (!is_low && !is_angle_within(before, after, *m_limits.normal_change));
     }
   };
   add(removed, kept);
@@ -273,9 +275,9 @@ std::string Limits::message(Violation_kind kind) const
     return "the vertex that moves leaves its border or seam, or is a corner or an end of it, or a seam "
            "beside it would end";
   std::string message = message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
-  if (kind == Violation_kind::border_turn && m_limits.corner_height)
-    message += ", and by more than " + with_unit(s_turn_of_low_corner, *limit_of(kind)) +
-               " or at a corner higher than " +
+  if ((kind == Violation_kind::normal_change || kind == Violation_kind::border_turn) &&
+      m_limits.corner_height)
+    message += ", at a corner higher than " +
                with_unit(*m_limits.corner_height, describe(&Reduction_limits::corner_height));
   return message;
 }

@@ -57,6 +57,9 @@ private:
   bool is_of_strip(const Complex& complex, Index face, Index mover, Index other) const;
   Coordinates scaled(const Coordinates& point) const;
 
+  // Returns a length that is a share of the diagonal, with what rounding may add.
+  double highest(double limit) const;
+
   Reduction_limits m_limits;
 
   int m_exponent = 0;

@@ -187,8 +187,9 @@ class Simplify(unittest.TestCase):
             selvedge.simplify(*layers(200), ratio=0.5, cluster_size=20)
         self.assertTrue(selvedge.simplify(*layers(200), ratio=0.5, cluster_size=20, index="clusters").accepted)
         with self.assertRaisesRegex(selvedge.ArgumentError, "^corner_height: with such a border_turn"):
-            selvedge.simplify(*layers(200), ratio=0.5, border_turn=50, corner_height=0)
-        self.assertTrue(selvedge.simplify(*layers(200), ratio=0.5, border_turn=49, corner_height=0).accepted)
+            selvedge.simplify(*layers(200), ratio=0.5, border_turn=180, normal_change=180,
+                              corner_height=0)
+        self.assertTrue(selvedge.simplify(*layers(200), ratio=0.5, border_turn=180, corner_height=0).accepted)
 
     def test_results_print_what_they_are(self):
         mesh = layers()

@@ -206,7 +206,8 @@ TEST(App_usage, RefusesWhatWouldDoNothing)
   const char* const ascii = "--ascii: no mesh is written that can be text";
   const std::pair<std::vector<std::string>, const char*> idle[] = {
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50"}, "or give --index clusters"},
-      {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "50", "--corner-height", "0"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "180", "--normal-change", "180",
+        "--corner-height", "0"},
        "--corner-height: with such a --border-turn"},
       {{"simplify", in, "-o", folder / "out.stl", "--ratio", "0.5", "--sewn"}, "--sewn: an STL file"},
       {{"simplify", in, "-o", glb, "--lods", "1,0.5", "--ascii"}, ascii},
@@ -226,7 +227,7 @@ TEST(App_usage, RefusesWhatWouldDoNothing)
   EXPECT_EQ(folder.files(), files);
   const std::vector<std::string> of_use[] = {
       {"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "50", "--index", "clusters"},
-      {"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "49", "--corner-height", "0"},
+      {"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "180", "--corner-height", "0"},
       {"simplify", in, "-o", folder / "out.off", "--ratio", "0.5", "--sewn"},
       {"simplify", in, "-o", out, "--ratio", "0.5", "--ascii"},
       {"simplify", scene, "-o", out, "--ratio", "0.5", "--instances", "apart"},

@@ -138,7 +138,8 @@ TEST(Seams, BordersTurnByMoreAtLowCorners)
   EXPECT_TRUE(loses_teeth(49, 1.01));
   EXPECT_FALSE(loses_teeth(49, 0.99)) << "too high";
   EXPECT_FALSE(loses_teeth(49, 0));
-  EXPECT_FALSE(loses_teeth(51, 10)) << "too sharp";
+  EXPECT_TRUE(loses_teeth(51, 1.01));
+  EXPECT_TRUE(loses_teeth(120, 1.01));
   options.max_border_turn = 52;
   EXPECT_TRUE(loses_teeth(51, 0)) << "the control";
 }
@@ -177,6 +178,27 @@ TEST(Seams, ALowCornerIsNearEverythingThatTheBorderWas)
     options.max_corner_height = height / diagonal;
     EXPECT_EQ(left_of(posed, {2}, options), count);
   }
+}
+
+TEST(Seams, FacesBesideLowCornersTurnByMore)
+{
+  // A flat sheet with a bump in its middle, √5 above the farthest edges around it.
+  Triangle_soup bump = test::sheet(4, 4);
+  bump.points[12] = Point_3(2, 2, 2);
+  Simplify_options options = without_limits(to_ratio(0));
+  options.max_normal_change = 45;
+  const auto left = [&](const Triangle_soup& soup, double height) {
+    options.max_corner_height = height / internal::diagonal(bump.points);
+    return left_of(soup, {12}, options);
+  };
+  EXPECT_EQ(left(bump, 0), 25u);
+  EXPECT_EQ(left(bump, 2.2), 25u);
+  EXPECT_EQ(left(bump, 2.3), 24u);
+  Triangle_soup posed = bump;
+  posed.poses.push_back({"higher", bump.points});
+  posed.poses[0].points[12] = Point_3(2, 2, 3);
+  EXPECT_EQ(left(posed, 3.1), 25u);
+  EXPECT_EQ(left(posed, 3.2), 24u);
 }
 
 TEST(Seams, CornersOfSeamsAreNeverLow)

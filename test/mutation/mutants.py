@@ -765,7 +765,6 @@ group(
     headers + "Surface_mesh_simplification/Border_rule.h",
     ("seams_test:Seams.*orner*",),
     ("!(is_border && state.max_squared_height > 0 &&", "!(state.max_squared_height > 0 &&", "corners of seams are low"),
-    ("is_turn_small(m - u, p - m, state.min_low_cosine)", "true", "the sharpest corner may be low"),
     ("[&](const Passed&) { return state.max_squared_height; }", "[&](const Passed& one) { return one.max_squared_drift; }",
      "corners are low as far as lines may drift"),
     ("if (!is_near(passed_at(source(ahead, state.mesh))))", "if (false)", "the vertex of a corner may be far off"),
@@ -776,9 +775,23 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
+    headers + "Surface_mesh_simplification/Normal_change_filter.h",
+    ("seams_test:Seams.*orner*",),
+    ("return m_max_height > 0 && (std::max)(length_before, length_after)", "return m_max_height > 0 && length_after",
+     "a face may have been high"),
+    ("return m_max_height > 0 &&", "return false &&", "no face is low"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Further_poses.h",
+    ("seams_test:Seams.*orner*",),
+    ("aspect_ratio, setup.max_corner_height()),", "aspect_ratio),", "no face is low in another pose"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
     headers + "Surface_mesh_simplification/internal/Reduction_setup.h",
     ("seams_test:Seams.*orner*",),
-    ("options.max_corner_height * diagonal;", "options.max_corner_height;", "the height is no share of the diagonal"),
+    ("return options.max_corner_height * diagonal;", "return options.max_corner_height;", "the height is no share of the diagonal"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -867,8 +880,9 @@ group(
     "src/replay/limits.cpp",
     ("replay_test",),
     ("if (ahead == lines.end() || lines.size() != 2)", "if (ahead == lines.end())", "corners of lines move"),
-    ("!turns_within(s_turn_of_low_corner) ||", "false ||", "the sharpest corner may be low"),
     ("!line_drifts_within(*m_limits.corner_height))", "false)", "corners of any height are low"),
+    ("(!is_low && !is_angle_within", "(!is_angle_within", "no face is low"),
+    ("std::max(length(before), length(after)) <=", "length(after) <=", "a face may have been high"),
     ("if (!m_limits.corner_height ||", "if (m_limits.corner_height ||", "no corner is low"),
     ("    if (!ahead->is_border())\n      return Violation_kind::seam_turn;", "", "corners of seams are low"),
     ("return !is_far(complex.point(mover), limit, u) &&", "return true &&", "the vertex that moves may drift"),

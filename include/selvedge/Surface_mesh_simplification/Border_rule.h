@@ -36,13 +36,10 @@ struct Border_rule_options
   /// on both sides, and no outline to fray.
   double max_seam_turn = 60;
 
-  /// The largest height, in units of the mesh and at least 0, of a *low corner*: a border may turn by more
-  /// than `max_border_turn`, up to `turn_of_low_corner`, where no original vertex of it is farther than this
-  /// from the segment that replaces it. 0 lets no corner pass for low.
+  /// The largest height, in units of the mesh and at least 0, of a *low corner*: a border may turn by any
+  /// angle where no original vertex of it is farther than this from the segment that replaces it. 0 lets no
+  /// corner pass for low.
   double max_corner_height = 0;
-
-  /// In degrees. A ring of eight turns by 45°; heptagons and rectangles keep their corners.
-  static constexpr double turn_of_low_corner = 50;
 
   /// The largest distance, in units of the mesh and at least 0, from an original vertex of a line to the
   /// segment that replaced it. Infinity sets no limit.
@@ -312,7 +309,6 @@ private:
     State(const TriangleMesh& mesh_, const VertexPointMap& points_, const Border_rule_options& options)
         : mesh(mesh_), points(points_), min_border_cosine(std::cos(options.max_border_turn * CGAL_PI / 180)),
           min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
-          min_low_cosine(std::cos(Border_rule_options::turn_of_low_corner * CGAL_PI / 180)),
           max_squared_height(options.max_corner_height * options.max_corner_height),
           max_squared_drift(options.max_drift * options.max_drift),
           freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
@@ -340,7 +336,6 @@ private:
     VertexPointMap points;
     double min_border_cosine;
     double min_seam_cosine;
-    double min_low_cosine;
     double max_squared_height;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
@@ -428,7 +423,7 @@ private:
     const typename Geom_traits::Segment_3 segment(u, p);
     const bool is_border = is_border_edge(ahead);
     if (!is_turn_small(m - u, p - m, is_border ? state.min_border_cosine : state.min_seam_cosine) &&
-        !(is_border && state.max_squared_height > 0 && is_turn_small(m - u, p - m, state.min_low_cosine) &&
+        !(is_border && state.max_squared_height > 0 &&
           are_passed_near(segment, behind, ahead, [&](const Passed&) { return state.max_squared_height; })))
       return Line_refusal::turn;
     if (state.max_squared_drift == std::numeric_limits<double>::infinity() && state.squared_drift_of.empty())

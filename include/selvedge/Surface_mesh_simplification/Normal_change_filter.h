@@ -9,12 +9,18 @@
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_type_basic.h>
+#include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace selvedge {
 
-/// Refuses a collapse that turns the normal of a face by more than a limit.
+/// Refuses a collapse that turns the normal of a face by more than a limit, unless the face is low.
+///
+/// A face is low where the corner that moves is near the line through the other two, before and after.
+/// However far it turns, the surface hardly changes: so the ends of bevels, rims and small parts need not
+/// keep faces.
 ///
 /// A face whose normal cannot be computed before the collapse, because it is degenerate, may get any normal.
 /// A collapse after which the normal of another face could not be computed is refused.
@@ -28,13 +34,17 @@ template <class BaseFilter = No_filter>
 class Normal_change_filter : public internal::Filter_base<Normal_change_filter<BaseFilter>, BaseFilter>
 {
 public:
-  /// `max_change` is an angle in degrees from 0 to 180, or `Argument_error` is thrown.
-  explicit Normal_change_filter(double max_change = 45, const BaseFilter& base = {})
+  /// `max_change` is an angle in degrees from 0 to 180, and `max_height` the largest distance from that line
+  /// in a low face, in units of the mesh and at least 0, or `Argument_error` is thrown. With 0, no face is
+  /// low.
+  explicit Normal_change_filter(double max_change = 45, const BaseFilter& base = {}, double max_height = 0)
       : internal::Filter_base<Normal_change_filter, BaseFilter>(base),
-        m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180))
+        m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180)), m_max_height(max_height)
   {
     if (!(max_change >= 0 && max_change <= 180))
       throw Argument_error("the change allowed to a normal is an angle between 0 and 180 degrees");
+    if (!(max_height >= 0))
+      throw Argument_error("the height of a low face is a length of at least 0");
   }
 
   template <class Collapse>
@@ -49,13 +59,17 @@ public:
           const double length_after = std::sqrt(CGAL::to_double(normal_after.squared_length()));
           if (!(length_before > 0))
             return true;
-          return length_after > 0 &&
-                 CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after;
+          if (!(length_after > 0))
+            return false;
+          if (CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after)
+            return true;
+          const double side = std::sqrt(CGAL::to_double(CGAL::squared_distance(a, b)));
+          return m_max_height > 0 && (std::max)(length_before, length_after) <= m_max_height * side;
         });
   }
 
 private:
-  double m_min_cosine;
+  double m_min_cosine, m_max_height;
 };
 
 } // namespace selvedge

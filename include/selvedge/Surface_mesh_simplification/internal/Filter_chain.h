@@ -134,7 +134,7 @@ public:
         m_pieces({&observer, m_rule}, m_line), m_border({&m_partners}, m_pieces),
         m_target(m_targets, m_border),
         m_aspect_ratio(m_options.min_aspect_ratio, m_target, {&m_mesh, m_rule}),
-        m_normal_change(m_options.max_normal_change, m_aspect_ratio),
+        m_normal_change(m_options.max_normal_change, m_aspect_ratio, setup.max_corner_height()),
         m_uv({m_options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change),
         m_tracked(m_mesh), m_error(setup.max_error, m_tracked), m_poses(setup, {&m_mesh, m_rule}),
         m_constraints(setup.constraints), m_diagonal(setup.diagonal), m_max_error(setup.max_error)

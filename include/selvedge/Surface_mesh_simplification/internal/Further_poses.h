@@ -59,7 +59,7 @@ class Further_poses
     Pose(const Reduction_setup<TriangleMesh>& setup, const Points& points, const IsOfStrip& is_of_strip)
         : rule(setup.border_rule(points)), quadrics(setup.mesh, setup.options.cost, rule),
           tracked(setup.mesh), line(rule), aspect_ratio(setup.options.min_aspect_ratio, line, is_of_strip),
-          normal_change(setup.options.max_normal_change, aspect_ratio),
+          normal_change(setup.options.max_normal_change, aspect_ratio, setup.max_corner_height()),
           error(setup.max_error, tracked, normal_change)
     {
     }

@@ -56,6 +56,9 @@ struct Reduction_setup
     divide_joint_vertices();
   }
 
+  /// The height of low corners and faces, in units of the mesh.
+  double max_corner_height() const { return options.max_corner_height * diagonal; }
+
   /// Returns the rule of borders and seams for the places that vertices have in one pose.
   template <class Points>
   Border_rule<TriangleMesh, Points> border_rule(const Points& points) const
@@ -63,7 +66,7 @@ struct Reduction_setup
     Border_rule_options of_rule;
     of_rule.max_border_turn = options.max_border_turn;
     of_rule.max_seam_turn = options.max_seam_turn;
-    of_rule.max_corner_height = options.max_corner_height * diagonal;
+    of_rule.max_corner_height = max_corner_height();
     of_rule.max_drift = options.max_border_drift * diagonal;
     Border_rule<TriangleMesh, Points> rule(mesh, points, of_rule);
     for (const auto e : constraints.line_edges)
