@@ -117,9 +117,9 @@ struct Simplified_soup
 ///    `Placement::optimal` this holds for all vertices but `placed_vertices`. Those have new positions, and
 ///    their texture coordinates, normals and attributes (floating point, or normalized integers) are those of
 ///    the surface before each collapse, at its point nearest to the new position, by barycentric coordinates
-///    on the same side of all lines, rounded to what a quantised glTF file can hold. Normals get the length 1.
-///    In the end, the (first) texture coordinates there are fitted: they become those with which the texture
-///    lies most like that of the input, in the sense of least squares (src/soup/fit_texture.h).
+///    on the same side of all lines, rounded to what a quantised glTF file can hold. Normals get the
+///    length 1. In the end, the (first) texture coordinates there are fitted: they become those with which
+///    the texture lies most like that of the input, in the sense of least squares (src/soup/fit_texture.h).
 ///    Other integers and the joints of a skin are those of the end that was nearer; its weights are mixed for
 ///    these joints, with the sum 1. Groups, objects and materials are kept. Normals are made anew or fitted
 ///    where `Prepare_options::normals` asks for it.

@@ -963,7 +963,7 @@ group(
 group(
     "src/soup/Wedge_table.h",
     ("wedge_table_test",),
-    ("    m_of_vertex[gone] = m_of_vertex[goal];\n", "", "a merged vertex has the wedge of the one that is gone"),
+    ("m_of_vertex[gone] = m_of_vertex[goal];", "", "a merged vertex has the wedge of the one that is gone"),
 )
 group(
     "src/soup/number_wedges.cpp",
