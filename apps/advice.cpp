@@ -72,7 +72,10 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
   case Hindrance::normals:
     return joins_vertices(request.normals) || !request.progressive.empty() ? "" : "--normals loose";
   case Hindrance::border_turn:
-    return options.max_border_turn < 180 ? "--border-turn 180" : "";
+    return options.max_border_turn == 180 ? ""
+           : request.corner_height && options.max_normal_change == 180
+               ? "--border-turn 180 without --corner-height"
+               : "--border-turn 180";
   case Hindrance::seam_turn:
     return options.max_seam_turn < 180 ? "--seam-turn 180" : "";
   case Hindrance::drift:

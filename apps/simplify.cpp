@@ -87,42 +87,34 @@ private:
     Outcome outcome;
     std::string log;
     std::vector<Soup_collapse> collapses;
-    Progression progression;
   };
 
   // Reduces and judges until no other reduction is due. Where shape was to be kept in a second one, and that
   // is interrupted, the first one is what was reached.
   std::vector<Level> judged_levels()
   {
+    std::vector<Level> levels;
     try {
-      std::vector<Level> levels;
       do {
         levels = reduce();
         if (m_first && m_is_kept)
           throw Interrupted("interrupted in the second reduction");
         judge(levels);
       } while (guard_more_poses(levels) || advance_error_search(levels) || keep_shape(levels));
-      return levels;
     } catch (const Interrupted&) {
       if (!m_first)
         throw;
+      m_is_kept = true;
+      m_bar.complain("interrupted in a second reduction, to keep shape; the result of the first is verified "
+                     "and written");
+      levels = std::move(m_first->levels);
+      m_outcome = m_first->outcome;
+      m_outcome.is_interrupted = true;
+      m_log.str(m_first->log);
+      m_collapses = std::move(m_first->collapses);
     }
-    m_is_kept = true;
-    tell_of_stop();
-    m_outcome = m_first->outcome;
-    m_outcome.is_interrupted = true;
-    m_log.str(m_first->log);
-    m_collapses = std::move(m_first->collapses);
-    m_progression = std::move(m_first->progression);
-    for (Level& level : m_first->levels)
-      level.result.report.is_stopped = !level.result.report.is_reached();
-    return std::move(m_first->levels);
-  }
-
-  void tell_of_stop()
-  {
-    if (!std::exchange(m_is_stop_told, true))
-      m_bar.complain("stopping: what was reached is judged and written next; interrupt again to end at once");
+    m_first.reset();
+    return levels;
   }
 
   // Adds the poses in which the judge found new pairs or pieces too near to those that are guarded. Returns
@@ -167,7 +159,7 @@ private:
       judged.push_back({level.result, level.verification.distances->original_to_result});
     if (!m_missed_target->advance(judged))
       return false;
-    m_first = {std::move(levels), m_outcome, m_log.str(), std::move(m_collapses), std::move(m_progression)};
+    m_first = {std::move(levels), m_outcome, m_log.str(), std::move(m_collapses)};
     return true;
   }
 
@@ -190,7 +182,9 @@ private:
       m_is_kept = true;
       if (!is_interrupted())
         return false;
-      tell_of_stop();
+      if (!std::exchange(m_is_stop_told, true))
+        m_bar.complain(
+            "stopping: what was reached is judged and written next; interrupt again to end at once");
       return true;
     };
     return options;

@@ -18,9 +18,8 @@ struct Reduction_limits
   std::optional<double> normal_change; ///< degrees
   std::optional<double> aspect_ratio;  ///< from 0 to 1, as `aspect_ratio()` defines it
   std::optional<double> border_turn;   ///< degrees
-  std::optional<double>
-      corner_height;               ///< share of the diagonal; lets borders and normals turn at lower corners
-  std::optional<double> seam_turn; ///< degrees
+  std::optional<double> corner_height; ///< share of the diagonal; eases `border_turn`, `normal_change`
+  std::optional<double> seam_turn;     ///< degrees
   std::optional<double> border_drift;  ///< share of the diagonal of the bounding box
   std::optional<double> weld_distance; ///< length in the unit of the coordinates
   std::optional<double> clearance;     ///< likewise

@@ -88,10 +88,9 @@ struct Simplify_options
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180, where the face is not
-  /// low (`max_corner_height`). The default lets small
-  /// bumps and hollows go, so that the surface gets the faces that it needs. With 45°, the value of Derichs,
-  /// Misiak and Fuhrmann, the error at 3 % of the faces is up to a fifth larger; at 10 % it is within 2 %.
-  /// With 90°, lips open and ears lose their shape.
+  /// low (`max_corner_height`). The default lets small bumps and hollows go, so that the surface gets the
+  /// faces that it needs. With 45°, the value of Derichs, Misiak and Fuhrmann, the error at 3 % of the faces
+  /// is up to a fifth larger; at 10 % it is within 2 %. With 90°, lips open and ears lose their shape.
   double max_normal_change = 75;
 
   /// The least aspect ratio (`aspect_ratio()`: 1 for the equilateral triangle) that a collapse may leave

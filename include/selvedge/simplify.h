@@ -144,6 +144,8 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 /// Does what `simplify_soup` leaves out without `Simplify_options::are_values_fitted`: fits the texture
 /// coordinates of vertices at new places and, where `Prepare_options::normals` asks for it, normals. Points
 /// and triangles stay, and with them what `verify` says. `prepared` and `intent` are those of the reduction.
+///
+/// **Preconditions** The values of this result have not been fitted.
 void fit_values(Simplified_soup& result, const Prepared_soup& prepared, const Simplify_intent& intent = {});
 
 /// Makes levels of detail. For each of `ratios`, which replace `Simplify_options::ratio`, the result is

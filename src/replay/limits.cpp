@@ -184,7 +184,7 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   if (turn && !is_angle_within(difference(m, u), difference(p, m), *turn)) {
     if (!ahead->is_border())
       return Violation_kind::seam_turn;
-    if (!m_limits.corner_height || !line_drifts_within(*m_limits.corner_height))
+    if (!has_low_corners() || !line_drifts_within(*m_limits.corner_height))
       return Violation_kind::border_turn;
   }
   if (m_limits.border_drift && !line_drifts_within(*m_limits.border_drift))
@@ -251,8 +251,8 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       const Coordinates before = cross(difference(a, m), difference(b, m));
       const Coordinates after = cross(difference(a, goal), difference(b, goal));
       const bool is_low =
-          m_limits.corner_height && std::max(length(before), length(after)) <=
-                                        highest(*m_limits.corner_height) * length(difference(b, a));
+          has_low_corners() && std::max(length(before), length(after)) <=
+                                   highest(*m_limits.corner_height) * length(difference(b, a));
       if (m_limits.normal_change && length(before) > 0)
         is_turned = is_turned || !(length(after) > 0) ||
                     (!is_low && !is_angle_within(before, after, *m_limits.normal_change));
@@ -275,10 +275,11 @@ std::string Limits::message(Violation_kind kind) const
     return "the vertex that moves leaves its border or seam, or is a corner or an end of it, or a seam "
            "beside it would end";
   std::string message = message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
-  if ((kind == Violation_kind::normal_change || kind == Violation_kind::border_turn) &&
-      m_limits.corner_height)
+  if ((kind == Violation_kind::normal_change || kind == Violation_kind::border_turn) && has_low_corners())
     message += ", at a corner higher than " +
                with_unit(*m_limits.corner_height, describe(&Reduction_limits::corner_height));
+  if (kind == Violation_kind::normal_change)
+    message += ", or has none afterwards";
   return message;
 }
 

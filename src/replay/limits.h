@@ -57,6 +57,8 @@ private:
   bool is_of_strip(const Complex& complex, Index face, Index mover, Index other) const;
   Coordinates scaled(const Coordinates& point) const;
 
+  bool has_low_corners() const { return m_limits.corner_height && *m_limits.corner_height > 0; }
+
   // Returns a length that is a share of the diagonal, with what rounding may add.
   double highest(double limit) const;
 

@@ -29,7 +29,7 @@ public:
 
   /// Triangle i of the result is what is left of triangle `triangles[i]` of the original, and has its corners
   /// from the corners `corners[i]`, numbered as 3 × triangle + place. `positions` are those of the vertices
-  /// of the original (`number_positions`).
+  /// of the original, by which its surfaces are connected (`Prepared_soup::positions`).
   ///
   /// **Preconditions** The arguments outlive the object, and points and triangles stay as they are.
   Fitted_surface(const Triangle_soup& result, const std::vector<Index>& triangles,

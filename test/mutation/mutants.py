@@ -777,9 +777,9 @@ group(
 group(
     headers + "Surface_mesh_simplification/Normal_change_filter.h",
     ("seams_test:Seams.*orner*",),
-    ("return m_max_height > 0 && (std::max)(length_before, length_after)", "return m_max_height > 0 && length_after",
+    ("return (std::max)(length_before, length_after)", "return length_after",
      "a face may have been high"),
-    ("return m_max_height > 0 &&", "return false &&", "no face is low"),
+    ("< m_max_height * side", "< 0", "no face is low"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -883,7 +883,7 @@ group(
     ("!line_drifts_within(*m_limits.corner_height))", "false)", "corners of any height are low"),
     ("(!is_low && !is_angle_within", "(!is_angle_within", "no face is low"),
     ("std::max(length(before), length(after)) <=", "length(after) <=", "a face may have been high"),
-    ("if (!m_limits.corner_height ||", "if (m_limits.corner_height ||", "no corner is low"),
+    ("if (!has_low_corners() ||", "if (has_low_corners() ||", "no corner is low"),
     ("    if (!ahead->is_border())\n      return Violation_kind::seam_turn;", "", "corners of seams are low"),
     ("return !is_far(complex.point(mover), limit, u) &&", "return true &&", "the vertex that moves may drift"),
     ("return !passed ||", "return true ||", "what was passed before may drift"),

@@ -34,9 +34,8 @@ template <class BaseFilter = No_filter>
 class Normal_change_filter : public internal::Filter_base<Normal_change_filter<BaseFilter>, BaseFilter>
 {
 public:
-  /// `max_change` is an angle in degrees from 0 to 180, and `max_height` the largest distance from that line
-  /// in a low face, in units of the mesh and at least 0, or `Argument_error` is thrown. With 0, no face is
-  /// low.
+  /// `max_change` is an angle in degrees from 0 to 180, and `max_height`, in units of the mesh and at least
+  /// 0, what a low face is nearer than, or `Argument_error` is thrown. With 0, no face is low.
   explicit Normal_change_filter(double max_change = 45, const BaseFilter& base = {}, double max_height = 0)
       : internal::Filter_base<Normal_change_filter, BaseFilter>(base),
         m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180)), m_max_height(max_height)
@@ -64,7 +63,7 @@ public:
           if (CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after)
             return true;
           const double side = std::sqrt(CGAL::to_double(CGAL::squared_distance(a, b)));
-          return m_max_height > 0 && (std::max)(length_before, length_after) <= m_max_height * side;
+          return (std::max)(length_before, length_after) < m_max_height * side;
         });
   }
 
