@@ -40,7 +40,7 @@ public:
                   const Corner_values<3>& normals)
   {
     for (Index t = 0; t < m_result.triangles.size(); ++t)
-      if (m_result.normals.of_triangle[t][0] != m_result.normals.missing)
+      if (m_result.normals.has(t))
         judge(t, triangles[t], original, normals);
     if (std::find(m_is_wrong.begin(), m_is_wrong.end(), true) == m_is_wrong.end())
       return 0;

@@ -121,7 +121,7 @@ void restore_smooth(Triangle_soup& soup)
   std::map<std::pair<Index, Index>, Index> numbers; // by vertex and old value
   std::vector<Vector> sums;
   for (Index t = 0; t < soup.triangles.size(); ++t) {
-    if (normals.of_triangle[t][0] == normals.missing)
+    if (!normals.has(t))
       continue;
     const Vector normal = unit_normal(soup, t);
     for (int k = 0; k < 3; ++k) {
@@ -146,7 +146,7 @@ void restore_smooth(Triangle_soup& soup)
     sums[i] = stored(unit(sums[i]));
   normals.values = std::move(sums);
   for (Index t = 0; t < soup.triangles.size(); ++t) {
-    if (normals.of_triangle[t][0] == normals.missing)
+    if (!normals.has(t))
       continue;
     const Vector normal = unit_normal(soup, t);
     Index number = s_no_normal;
