@@ -163,7 +163,7 @@ private:
     return true;
   }
 
-  // Returns the options of the next reduction, but for what is told of its collapses.
+  // Returns the options of the next reduction, without the functions that it calls for each collapse.
   Simplify_options next_options()
   {
     Simplify_options options = m_missed_target ? m_missed_target->options() : m_request.options;

@@ -21,7 +21,7 @@ namespace selvedge {
 /// The values that the wedges of a mesh have, two numbers for the texture or three for normals, and how far
 /// those of the surface beside a wedge are displaced when it moves.
 ///
-/// **Preconditions** The mesh outlives the object, which is told of every collapse before it is done.
+/// **Preconditions** The mesh outlives the object, the members of which are called before every collapse.
 template <std::size_t dimension>
 class Value_wedges
 {

@@ -21,7 +21,7 @@ namespace selvedge {
 /// corner of the soup has a number. A collapse carries the corners of the soup along (`Corner_mesh::carry`),
 /// and with them their wedges.
 ///
-/// **Preconditions** The mesh outlives the object, which is told of every collapse before it is done.
+/// **Preconditions** The mesh outlives the object, and `on_merging` is called before every collapse.
 class Wedge_table
 {
   using Mesh = Corner_mesh::Mesh;
