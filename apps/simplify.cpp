@@ -277,14 +277,15 @@ private:
   // Does what the results that are kept need, and the judge does not look at.
   void finish(std::vector<Level>& levels)
   {
+    m_bar.begin("fitting attributes");
     const internal::Stopwatch stopwatch;
-    for (Level& level : levels) {
+    for (Level& level : levels)
       fit_values(level.result, m_input.prepared, m_request.intent);
-      if (m_input.polygons > 0) // otherwise the soup need not be merged and copied for it
+    m_seconds["fit"] += stopwatch.seconds();
+    if (m_input.polygons > 0) // otherwise the soup need not be merged and copied for it
+      for (Level& level : levels)
         level.polygons = {m_input.polygons,
                           written_polygons(written(level.result), output_format(m_request))};
-    }
-    m_seconds["weld"] += stopwatch.seconds();
   }
 
   // Has a mesh refer to the same files from another output. So far it names those to which the first output
@@ -434,7 +435,7 @@ private:
     if (!m_report.contains("progressive"))
       m_report["progressive"] = nullptr;
     m_report["seconds"] = m_seconds.json(
-        {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "write", "parts"});
+        {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "fit", "write", "parts"});
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
     if (!m_request.report.empty()) {

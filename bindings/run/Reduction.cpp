@@ -101,11 +101,13 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       }
     }
   } while (is_to_be_repeated(request, missed_target));
-  for (Level& level : m_levels) {
+  const internal::Stopwatch stopwatch;
+  for (Level& level : m_levels)
     fit_values(level.result, m_prepared, request.intent);
-    if (m_is_sewn)
+  m_seconds["fit"] += stopwatch.seconds();
+  if (m_is_sewn)
+    for (Level& level : m_levels)
       level.merged = merged_at_positions(level.result.soup);
-  }
 }
 
 // Judges results, which become the levels.
@@ -198,7 +200,7 @@ std::string Reduction::report(std::size_t level) const
   app::add_distances(report, of_level.verification, distances);
   app::add_error_search(report, m_error_search);
   app::add_parts(report, m_prepared, of_level.result);
-  report["seconds"] = m_seconds.json({"weld", "check", "snap", "index", "cells", "reduce", "verify"});
+  report["seconds"] = m_seconds.json({"weld", "check", "snap", "index", "cells", "reduce", "verify", "fit"});
   return app::to_text(report);
 }
 

@@ -75,7 +75,9 @@ TEST(App_interruption, OfASecondReductionWritesTheFirst)
     ASSERT_TRUE(process.shows(phase)) << process.err();
     process.send(SIGINT);
     EXPECT_TRUE(process.shows("selvedge: interrupted in a second reduction")) << process.err();
+    EXPECT_TRUE(process.shows("fitting attributes")) << process.err(); // of what is kept
     EXPECT_EQ(process.wait(), 5) << process.err();
+    EXPECT_GT(json().at("seconds").at("fit"), 0);
     EXPECT_EQ(json().at("faces").at("output"), within_reach);
     EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
     EXPECT_GT(json().at("vertices").at("fitted_texture"), 0);
