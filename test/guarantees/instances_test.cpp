@@ -175,6 +175,30 @@ TEST(Instances, WhatOnePlaceRefusesIsDoneInNone)
   EXPECT_GT(apart[1], apart[0] + 50);
 }
 
+// Most collapses are then companions, which are not in the queue. As many edges as there are collapses to
+// come would be all that it has, and they would come without regard to their costs.
+TEST(Instances, TheTargetDoesNotDecideOnTheOrder)
+{
+  constexpr int side = 90;
+  const Triangle_soup waves = mapped(sheet(side, side), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), double(float(std::sin(0.3 * p.x()) * std::cos(0.004 * p.y() * p.y()))));
+  });
+  const Triangle_soup soup = in_places({{{"name", "left"}}, {{"translation", {2 * side, 0, 0}}}}, waves);
+  Simplify_options options;
+  options.faces = soup.triangles.size() / 2;
+  const Simplified_soup alone = simplify_soup(prepare(soup), options);
+  ASSERT_EQ(alone.shared_meshes, 1u);
+  options.least_faces = {*options.faces};
+  options.faces.reset();
+  options.ratio = 0.02;
+  EXPECT_EQ(simplify_soup(prepare(soup), options).soup.triangles, alone.soup.triangles);
+  options.instances = Instances::apart; // the control
+  const Simplified_soup apart = simplify_soup(prepare(soup), options);
+  options.ratio.reset();
+  options.faces = options.least_faces[0];
+  EXPECT_NE(simplify_soup(prepare(soup), options).soup.triangles, apart.soup.triangles);
+}
+
 TEST(Instances, PlacesThatComeTooNearDoNotMove)
 {
   const Triangle_soup soup =

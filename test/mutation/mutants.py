@@ -1185,6 +1185,12 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    ("instances_test",),
+    (" && !has_companions()", "", "the number of collapses in all places decides on the order of those in one"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
     "src/soup/check_soup.cpp",
     ("prepare_test",),
     ("if (value >= values)", "if (value > values)", "a number beyond the last value"),

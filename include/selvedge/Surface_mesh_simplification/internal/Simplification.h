@@ -25,6 +25,7 @@
 
 #include <CGAL/Kernel_traits.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -233,11 +234,19 @@ private:
 
   // Whether the number of collapses to come may decide on their order. Levels on the way are to be those of a
   // reduction that ends there. A share with few collapses to come would make them all in its first tiles.
-  // Without a target, the limits say where the reduction ends.
+  // Companions are not in the queue: where most collapses are theirs, more would be expected than the queue
+  // has edges, and costs would not count at all. Without a target, the limits say where the reduction ends.
   bool is_target_known() const
   {
     return (m_options.ratio || m_options.faces) && m_levels.empty() && !m_options.is_progression_recorded &&
-           !targets().has_several_shares();
+           !targets().has_several_shares() && !has_companions();
+  }
+
+  bool has_companions() const
+  {
+    const auto all = edges(m_mesh);
+    return std::any_of(all.begin(), all.end(),
+                       [this](const auto& edge) { return m_observer.is_led(halfedge(edge, m_mesh)); });
   }
 
   // The stop predicate of either loop: the target is reached, or the caller wants to end.
