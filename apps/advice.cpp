@@ -355,14 +355,20 @@ std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplif
 {
   constexpr double hardly_enough = 8;
   const double pieces = double(part_kinds(prepared.soup).front().count);
-  if (pieces < 2 || report.faces_target == 0 || double(report.faces_target) > hardly_enough * pieces)
+  if (pieces < 2 || report.faces_target == 0)
     return "";
   const std::optional<Small_pieces> small = small_pieces(prepared.soup);
-  return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
-         " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes" +
-         (small ? "; --drop-smaller " + small->length + " leaves out the small ones, " +
-                      with_commas(small->count) + " with " + counted(small->triangles, "face")
-                : "");
+  if (double(report.faces_target) <= hardly_enough * pieces)
+    return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
+           " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes" +
+           (small ? "; --drop-smaller " + small->length + " leaves out the small ones, " +
+                        with_commas(small->count) + " with " + counted(small->triangles, "face")
+                  : "");
+  if (!small || 2 * small->triangles < prepared.soup.triangles.size())
+    return "";
+  return "\npieces: " + with_commas(small->count) + " small ones have " + with_commas(small->triangles) +
+         " of the faces of the input, and none of them vanishes; --drop-smaller " + small->length +
+         " leaves them out";
 }
 
 std::string what_texture_takes(const Simplify_request& request, const Triangle_soup& soup)

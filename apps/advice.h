@@ -29,8 +29,9 @@ std::string most_frequent_reason(const Hindrances& hindrances);
 std::string what_shape_takes(const Simplify_request& request, const Simplify_report& report,
                              const Distance& distance);
 
-/// Says how few faces a missed target leaves for each piece, if that is hardly enough for a shape. Islands of
-/// an atlas are pieces, and so are stitches, and none of them vanishes.
+/// Says how few faces a missed target leaves for each piece, if that is hardly enough for a shape, or else
+/// that small pieces have most of the faces. Islands of an atlas are pieces, and so are stitches, and none of
+/// them vanishes.
 std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplify_report& report);
 
 /// Says, where a target is reached, that most vertices left in `soup` lie on seams of the texture, and what

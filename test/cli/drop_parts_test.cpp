@@ -133,6 +133,41 @@ TEST(App_drop_parts, AreNamedWhereTheyTakeTheTarget)
     EXPECT_EQ(run_app({"info", folder / name}).out.find("small surfaces"), std::string::npos) << name;
 }
 
+// Stitches of many faces: the target leaves enough for each piece, but they take nearly all of it.
+TEST(App_drop_parts, AreNamedWhereTheyHaveMostOfTheFaces)
+{
+  const Workspace folder;
+  const auto missed = [&](Index side_of_cloth) {
+    const auto rough = [](const Triangle_soup& soup) {
+      return mapped(soup, [](const Point_3& p) {
+        const int x = int(p.x()), y = int(p.y());
+        return Point_3(p.x(), p.y(), (3 * x * x + 5 * y * y + x * y) % 11 / 8.);
+      });
+    };
+    Triangle_soup soup = mapped(rough(sheet(side_of_cloth, side_of_cloth)), [&](const Point_3& p) {
+      return Point_3(40 * p.x() / side_of_cloth, 40 * p.y() / side_of_cloth, p.z());
+    });
+    for (int i = 0; i < 20; ++i)
+      soup = joined(soup,
+                    moved(mapped(rough(sheet(4, 4)),
+                                 [](const Point_3& p) { return Point_3(p.x() / 8, p.y() / 8, p.z() / 8); }),
+                          2 * i, 2 * i, 5));
+    write_mesh(folder / "in.obj", soup);
+    return run_app(
+               {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "0.5", "--error", "0"})
+        .out;
+  };
+  const std::string most = missed(10);
+  EXPECT_NE(
+      most.find("\npieces: 20 small ones have 640 of the faces of the input, and none of them vanishes; "
+                "--drop-smaller 0."),
+      std::string::npos)
+      << most;
+  const std::string few = missed(20);
+  EXPECT_NE(few.find("not reached"), std::string::npos) << few;
+  EXPECT_EQ(few.find("--drop-smaller"), std::string::npos) << few;
+}
+
 TEST(App_drop_parts, RefusesWhatLeavesNothing)
 {
   const Workspace folder;
