@@ -122,6 +122,13 @@ private:
     return bytes;
   }
 
+  static bool is_quantised_direction(const Column& column, Index row)
+  {
+    const std::array<double, 3> direction = {component(column, row, 0), component(column, row, 1),
+                                             component(column, row, 2)};
+    return quantised_direction(column, direction) == direction;
+  }
+
   // Gives normals that are new to a mesh the precision of those that it has in the file, before vertices are
   // split by their normals: so that none are split that have the same normal in the file.
   void quantise_new_normals()
@@ -134,7 +141,8 @@ private:
       columns.push_back(are_quantised && !m_normals.empty() ? normals : nullptr);
       known.emplace_back();
       for (Index row = 0; row < block(instance).size && columns.back(); ++row)
-        known.back().insert(bits_of(world_normal(instance, *columns.back(), row)));
+        if (is_quantised_direction(*columns.back(), row)) // not those of vertices at new places
+          known.back().insert(bits_of(world_normal(instance, *columns.back(), row)));
     }
     std::map<std::pair<Index, Index>, Index> numbers; // by instance and number of the normal
     Cancellation_poll poll;

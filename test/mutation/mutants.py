@@ -1297,6 +1297,8 @@ group(
      "Draco reorders a mesh with poses"),
     ("else if (left.quantised_accessor)", "else if (false)", "floats in place of whole numbers are not noted"),
     ("holds_all(part.index_type) ?", "part.index_type != 0 ?", "indices are cut off"),
+    ("        if (is_quantised_direction(*columns.back(), row))", "       ",
+     "normals of vertices at new places are none that the file could hold"),
     ("m_split = vertices_by_normal(soup, m_normals);", "m_split = vertices_by_normal(soup, soup.normals);",
      "vertices are split whose new normals are one in the file"),
 )

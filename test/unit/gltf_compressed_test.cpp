@@ -451,11 +451,12 @@ Json accessors_of(const Json& json)
 }
 
 // Reduces a sheet such that vertices get new places. Expects that no column has become one of floats.
-void expect_new_places_held(const Document_of_sheet& document)
+void expect_new_places_held(const Document_of_sheet& document, bool are_values_fitted = true)
 {
   Simplify_options options;
   options.ratio = 0.3;
   options.placement = Placement::optimal;
+  options.are_values_fitted = are_values_fitted;
   const Simplified_soup reduced = simplify_soup(prepare(read(document).soup), options);
   EXPECT_GT(reduced.placed_vertices, 20u);
   const Temporary_folder folder;
@@ -755,19 +756,32 @@ TEST(Gltf_meshopt, IsRefusedWithTheNameOfWhatIsMissing)
 #endif
 
 #ifdef SELVEDGE_HAS_DRACO
-/// The sheet compressed by Draco, without loss, or quantised as exporters do it.
-Document_of_sheet draco_sheet(bool is_edgebreaker, bool is_quantised = false)
+/// The sheet compressed by Draco, without loss, or quantised as exporters do it; with one normal in a box, or
+/// with normals as directions.
+Document_of_sheet draco_sheet(bool is_edgebreaker, bool is_quantised = false, bool has_directions = false)
 {
   const Sheet sheet;
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(int(sheet.indices.size() / 3));
   const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-  const int normal = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 3, draco::DT_FLOAT32);
+  const int normal = builder.AddAttribute(has_directions ? draco::GeometryAttribute::NORMAL
+                                                         : draco::GeometryAttribute::GENERIC,
+                                          3, draco::DT_FLOAT32);
+  std::vector<float> normals = sheet.normals;
+  for (std::uint32_t v = 0; v < s_vertices && has_directions; ++v) {
+    const float x = float(v % s_side), y = float(v / s_side), length = std::hypot(std::cos(x), y / 9, 1.f);
+    normals[3 * v] = -std::cos(x) / length;
+    normals[3 * v + 1] = y / 9 / length;
+    normals[3 * v + 2] = 1 / length;
+  }
   for (std::uint32_t t = 0; t < sheet.indices.size() / 3; ++t) {
-    const auto at = [&](int k) { return &sheet.positions[3 * sheet.indices[3 * t + k]]; };
-    builder.SetAttributeValuesForFace(position, draco::FaceIndex(t), at(0), at(1), at(2));
-    const float* const n = sheet.normals.data();
-    builder.SetAttributeValuesForFace(normal, draco::FaceIndex(t), n, n, n);
+    const auto at = [&](const std::vector<float>& rows, int k) {
+      return &rows[3 * sheet.indices[3 * t + k]];
+    };
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(t), at(sheet.positions, 0),
+                                      at(sheet.positions, 1), at(sheet.positions, 2));
+    builder.SetAttributeValuesForFace(normal, draco::FaceIndex(t), at(normals, 0), at(normals, 1),
+                                      at(normals, 2));
   }
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::ExpertEncoder encoder(*mesh);
@@ -886,6 +900,12 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
 TEST(Gltf_draco, HasNewPlacesInTheStepsOfItsQuantisation)
 {
   expect_new_places_held(draco_sheet(true, true));
+}
+
+// What is interpolated is no direction that Draco has, and is not always fitted.
+TEST(Gltf_draco, HasNormalsOfNewPlacesInTheDirectionsOfItsQuantisation)
+{
+  expect_new_places_held(draco_sheet(true, true, true), false);
 }
 
 TEST(Gltf_draco, HasNewNormalsInTheBoxOfItsQuantisation)
