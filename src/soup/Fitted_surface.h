@@ -4,8 +4,12 @@
 #ifndef SELVEDGE_SRC_SOUP_FITTED_SURFACE_H
 #define SELVEDGE_SRC_SOUP_FITTED_SURFACE_H
 
+#include "Disjoint_sets.h"
 #include "Triangle_finder.h"
+#include "inner_edges.h"
+#include "number_positions.h"
 #include "surface_fit.h"
+#include "triangle_normals.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Triangle_soup.h>
@@ -14,7 +18,9 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -86,7 +92,69 @@ public:
     }
   }
 
+  /// Returns, for each triangle of the original, the number of its chart: of what is connected by edges at
+  /// whose ends the corners of both sides have the same values, as `is_same(corner, corner)` says.
+  template <class Is_same>
+  std::vector<std::size_t> charts(const Is_same& is_same) const
+  {
+    const std::vector<Index_triple> triples = in_positions(m_original.triangles, m_positions);
+    internal::Disjoint_sets sets(triples.size());
+    internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
+      if (is_same(a.at_low, b.at_low) && is_same(a.at_high, b.at_high))
+        sets.unite(a.at_low / 3, b.at_low / 3);
+    });
+    std::vector<std::size_t> result(triples.size());
+    for (std::size_t t = 0; t < result.size(); ++t)
+      result[t] = sets.find(t);
+    return result;
+  }
+
+  /// A sample in the middle of a triangle of the original: one is enough where triangles of the result are
+  /// larger.
+  struct Middle
+  {
+    static constexpr std::array<double, 3> weights_of_corners = {1. / 3, 1. / 3, 1. / 3};
+    std::optional<Triangle_finder::Nearest> nearest;
+    Index triangle = 0; ///< of the original
+    double weight = 0;  ///< its area
+  };
+
+  /// Calls `add(middle, i)` as `sample` does, with samples where they can count: not of charts in which no
+  /// triangle of the result `is_free`, nor of triangles that are in the result as they were. The sample of
+  /// such a one is on itself, where it moves nothing. `has(t)` says whether a triangle of the original has
+  /// values.
+  template <class Is_searched, class Is_free, class Has, class Add>
+  void sample_middles(const std::vector<std::size_t>& charts, const Is_searched& is_searched,
+                      const Is_free& is_free, const Has& has, const Add& add) const
+  {
+    std::vector<char> is_asked(m_original.triangles.size(), false), // by chart
+        is_left(m_original.triangles.size(), false);
+    for (Index i = 0; i < size(); ++i)
+      if (is_searched(i)) {
+        is_asked[charts[of_original(i)]] |= is_free(i);
+        is_left[of_original(i)] = !is_free(i) && !is_changed(i);
+      }
+    sample(
+        charts, is_searched,
+        [&](Index t, const Triangle_finder& finder) {
+          const bool is_taken = is_asked[charts[t]] && !is_left[t] && has(t);
+          return std::array<Middle, 1>{is_taken ? middle(t, finder, charts[t]) : Middle()};
+        },
+        add);
+  }
+
 private:
+  Middle middle(Index t, const Triangle_finder& finder, std::size_t chart) const
+  {
+    const Corners at = corners(m_original, t);
+    const double weight = surface_fit::area(at);
+    if (!(weight > 0))
+      return {};
+    return {finder.nearest(surface_fit::interpolated(at, Middle::weights_of_corners), chart,
+                           shading::unit_normal(m_original, t)),
+            t, weight};
+  }
+
   const Triangle_soup& m_result;
   const std::vector<Index>& m_triangles;
   const std::vector<Index_triple>& m_corners;

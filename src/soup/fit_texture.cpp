@@ -3,12 +3,7 @@
 
 #include "fit_texture.h"
 
-#include "Disjoint_sets.h"
-#include "Triangle_finder.h"
-#include "inner_edges.h"
-#include "number_positions.h"
 #include "surface_fit.h"
-#include "triangle_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +13,6 @@
 namespace selvedge {
 namespace {
 
-using shading::unit_normal;
 using Uv = std::array<double, 2>;
 
 // The weight of the coordinates as they are, relative to that of the samples around. It decides where there
@@ -61,8 +55,6 @@ public:
   }
 
 private:
-  using Sample = surface_fit::Sample<2>;
-
   static const Uv& uv_at(const Corner_values<2>& uvs, Index triangle, std::size_t k)
   {
     return uvs.values[uvs.of_triangle[triangle][k]];
@@ -73,74 +65,35 @@ private:
     return {uv_at(soup.uvs, triangle, 0), uv_at(soup.uvs, triangle, 1), uv_at(soup.uvs, triangle, 2)};
   }
 
-  // Returns, for each triangle of the original, the number of what its texture goes on to.
-  std::vector<std::size_t> charts() const
-  {
-    const std::vector<Index_triple> triples =
-        in_positions(m_original.triangles, m_surface.positions_of_original());
-    internal::Disjoint_sets sets(triples.size());
-    const auto uv = [&](Index corner) { return uv_at(m_original.uvs, corner / 3, corner % 3); };
-    internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
-      if (uv(a.at_low) == uv(b.at_low) && uv(a.at_high) == uv(b.at_high))
-        sets.unite(a.at_low / 3, b.at_low / 3);
-    });
-    std::vector<std::size_t> result(triples.size());
-    for (std::size_t t = 0; t < result.size(); ++t)
-      result[t] = sets.find(t);
-    return result;
-  }
-
   bool is_free(Index i) const
   {
     return std::any_of(m_numbers[i].begin(), m_numbers[i].end(), [&](Index n) { return !m_is_fixed[n]; });
   }
 
-  // Takes samples where they can count: not of charts without a free vertex, nor of triangles that are in the
-  // result as they were. The sample of such a one is on itself, where it moves nothing.
   void take_samples()
   {
-    const std::vector<std::size_t> of_original = charts();
-    std::vector<char> is_asked(m_original.triangles.size(), false), // by chart
-        is_left(m_original.triangles.size(), false);
     m_moments.resize(m_surface.size());
     m_size.resize(m_surface.size());
-    for (Index i = 0; i < m_surface.size(); ++i) {
-      if (!m_result.uvs.has(i))
-        continue;
-      const Index t = m_surface.of_original(i);
-      is_asked[of_original[t]] |= is_free(i);
-      is_left[t] = !is_free(i) && !m_surface.is_changed(i);
-      for (std::size_t k = 0; k < 3; ++k) {
+    const auto has = [&](Index i) { return m_result.uvs.has(i); };
+    for (Index i = 0; i < m_surface.size(); ++i)
+      for (std::size_t k = 0; k < 3 && has(i); ++k) {
         const Uv &p = uv_at(m_result.uvs, i, k), &q = uv_at(m_result.uvs, i, (k + 1) % 3);
         m_size[i] = std::max(m_size[i], std::hypot(p[0] - q[0], p[1] - q[1]));
       }
-    }
-    m_surface.sample(
-        of_original, [&](Index i) { return m_result.uvs.has(i); },
-        [&](Index t, const Triangle_finder& finder) {
-          const bool is_taken = is_asked[of_original[t]] && !is_left[t];
-          return std::array<Sample, 1>{is_taken ? sample_of(t, finder, of_original[t]) : Sample()};
-        },
-        [&](const Sample& sample, Index i) { add(sample, i); });
+    const auto uv = [&](Index corner) { return uv_at(m_original.uvs, corner / 3, corner % 3); };
+    m_surface.sample_middles(
+        m_surface.charts([&](Index a, Index b) { return uv(a) == uv(b); }), has,
+        [&](Index i) { return is_free(i); }, [&](Index t) { return m_original.uvs.has(t); },
+        [&](const Fitted_surface::Middle& sample, Index i) { add(sample, i); });
   }
 
-  // The sample is in the middle of the triangle: one is enough where triangles of the result are larger.
-  Sample sample_of(Index t, const Triangle_finder& finder, std::size_t chart) const
+  void add(const Fitted_surface::Middle& sample, Index i)
   {
-    constexpr std::array<double, 3> middle = {1. / 3, 1. / 3, 1. / 3};
-    const Fitted_surface::Corners corners = m_surface.corners(m_original, t);
-    const double weight = surface_fit::area(corners);
-    if (!m_original.uvs.has(t) || !(weight > 0))
-      return {};
-    return {finder.nearest(surface_fit::interpolated(corners, middle), chart, unit_normal(m_original, t)),
-            surface_fit::interpolated(uvs_of(m_original, t), middle), weight};
-  }
-
-  void add(const Sample& sample, Index i)
-  {
-    const Uv here = surface_fit::interpolated(uvs_of(m_result, i), sample.nearest->weights);
-    if (std::hypot(sample.value[0] - here[0], sample.value[1] - here[1]) <= m_size[i])
-      m_moments[i].add(sample);
+    const Uv there =
+                 surface_fit::interpolated(uvs_of(m_original, sample.triangle), sample.weights_of_corners),
+             here = surface_fit::interpolated(uvs_of(m_result, i), sample.nearest->weights);
+    if (std::hypot(there[0] - here[0], there[1] - here[1]) <= m_size[i])
+      m_moments[i].add(sample.nearest->weights, there, sample.weight);
   }
 
   static CGAL::Orientation orientation(const Uv& a, const Uv& b, const Uv& c)

@@ -62,10 +62,11 @@ struct Moments
   std::array<std::array<double, 3>, 3> products{};
   std::array<std::array<double, dimension>, 3> values{};
 
-  void add(const Sample<dimension>& sample)
+  void add(const Sample<dimension>& sample) { add(sample.nearest->weights, sample.value, sample.weight); }
+
+  /// Adds a value at the point of the triangle that has these weights of its corners.
+  void add(const std::array<double, 3>& weights, const std::array<double, dimension>& value, double weight)
   {
-    const auto& [nearest, value, weight] = sample;
-    const std::array<double, 3>& weights = nearest->weights;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t l = 0; l < 3; ++l)
         products[k][l] += weight * weights[k] * weights[l];

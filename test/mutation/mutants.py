@@ -358,10 +358,12 @@ group("src/soup/fit_normals.cpp", ("fitted_shading_test",),
 group("src/soup/fit_texture.cpp", ("fit_texture_test",),
       ("orientation(result[a], result[b], result[c]) == turn", "true", "a triangle of the texture turns over where it is fitted"),
       ("if (is_within(uv))", "if (true)", "a fitted texture leaves the image"),
-      ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
       ("<= m_size[i]", "<= 1e300", "a texture is fitted to what lies beyond a cut"),
-      ("|| !(is_moved[a] || is_moved[b] || is_moved[c])", "|| !is_moved[a]", "a triangle of the texture turns over after a step back"),
-      ("!is_free(i) && !m_surface.is_changed(i)", "!is_free(i)", "a face that has changed is no sample of the texture"))
+      ("|| !(is_moved[a] || is_moved[b] || is_moved[c])", "|| !is_moved[a]", "a triangle of the texture turns over after a step back"))
+group("src/soup/Fitted_surface.h", ("fit_texture_test",),
+      ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
+      ("!is_free(i) && !is_changed(i)", "!is_free(i)", "a face that has changed is no sample of the texture"),
+      sources=("src/soup/fit_texture.cpp",))
 group("src/simplify/simplify_soup.cpp", ("fit_texture_test",),
       ("if (m_options.are_values_fitted)", "if (true)", "results that are thrown away are fitted"))
 group("src/files/triangulate_polygon.cpp", ("mesh_files_content_test",),
