@@ -190,7 +190,8 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["hindrances"] = std::move(hindrances);
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
                         {"placed", result.placed_vertices},
-                        {"fitted_texture", result.fitted_texture}};
+                        {"fitted_texture", result.fitted_texture},
+                        {"fitted_attributes", result.fitted_attributes}};
   report["corners"] = {{"mended_normals", result.mended_normals}, {"fitted_normals", result.fitted_normals}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;

@@ -295,7 +295,8 @@ void print_reduction(std::ostream& stream, const Simplify_request& request, cons
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "")
-           << (result.fitted_texture > 0 ? ", the texture fitted to that of the input" : "");
+           << (result.fitted_texture > 0 ? ", the texture fitted to that of the input" : "")
+           << (result.fitted_attributes > 0 ? ", colours and the like fitted to those of the input" : "");
   if (has_normals)
     print_normals(stream, request.normals, prepared.normals, result);
   if (level.polygons.input > 0 && has_polygons)

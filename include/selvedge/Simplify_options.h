@@ -188,8 +188,8 @@ struct Simplify_options
   /// number of faces; the attributes of vertices at new places are interpolated (`simplify_soup`).
   Placement placement = Placement::vertices;
 
-  /// Whether texture coordinates and normals of the result are fitted to those of the original. False saves
-  /// time where a result may not be kept, and leaves it to `fit_values` when it is.
+  /// Whether texture coordinates, attributes and normals of the result are fitted to those of the original.
+  /// False saves time where a result may not be kept, and leaves it to `fit_values` when it is.
   bool are_values_fitted = true;
 
   /// What becomes of meshes that stand in several places of a glTF scene (`simplify_soup`).

@@ -80,11 +80,12 @@ struct Simplified_soup
 
   std::optional<double> clearance; ///< that pieces keep from each other; `verify` judges it
 
-  std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
-  std::vector<char> is_placed;     ///< by vertex, which they are; empty if there are none
-  std::size_t fitted_texture = 0;  ///< how many of these have fitted texture coordinates
-  std::size_t mended_normals = 0;  ///< how many corners of `soup` have a new normal (`mend_normals`)
-  std::size_t fitted_normals = 0;  ///< how many corners of `soup` have another normal (`fit_normals`)
+  std::size_t placed_vertices = 0;   ///< how many vertices of `soup` are at new places
+  std::vector<char> is_placed;       ///< by vertex, which they are; empty if there are none
+  std::size_t fitted_texture = 0;    ///< how many of these have fitted texture coordinates
+  std::size_t fitted_attributes = 0; ///< how many of these have fitted attributes, such as colours
+  std::size_t mended_normals = 0;    ///< how many corners of `soup` have a new normal (`mend_normals`)
+  std::size_t fitted_normals = 0;    ///< how many corners of `soup` have another normal (`fit_normals`)
 
   std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and
   std::size_t shared_places = 0; ///< in how many places these stand
@@ -120,6 +121,8 @@ struct Simplified_soup
 ///    on the same side of all lines, rounded to what a quantised glTF file can hold. Normals get the
 ///    length 1. In the end, the (first) texture coordinates there are fitted: they become those with which
 ///    the texture lies most like that of the input, in the sense of least squares (src/soup/fit_texture.h).
+///    So are attributes, such as colours (src/soup/fit_attributes.h), each between the least and the largest
+///    of what it was and of those of the input around it. Tangents and weights of a skin are not fitted.
 ///    Other integers and the joints of a skin are those of the end that was nearer; its weights are mixed for
 ///    these joints, with the sum 1. Groups, objects and materials are kept. Normals are made anew or fitted
 ///    where `Prepare_options::normals` asks for it.
@@ -141,9 +144,10 @@ struct Simplified_soup
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
                               const Simplify_intent& intent = {});
 
-/// Does what `simplify_soup` leaves out without `Simplify_options::are_values_fitted`: fits the texture
-/// coordinates of vertices at new places and, where `Prepare_options::normals` asks for it, normals. Points
-/// and triangles stay, and with them what `verify` says. `prepared` and `intent` are those of the reduction.
+/// Does what `simplify_soup` leaves out without `Simplify_options::are_values_fitted`: fits texture
+/// coordinates and attributes of vertices at new places and, where `Prepare_options::normals` asks for it,
+/// normals. Points and triangles stay, and with them what `verify` says. `prepared` and `intent` are those of
+/// the reduction.
 ///
 /// **Preconditions** The values of this result have not been fitted.
 void fit_values(Simplified_soup& result, const Prepared_soup& prepared, const Simplify_intent& intent = {});

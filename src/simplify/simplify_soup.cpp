@@ -8,6 +8,7 @@
 #include "soup/Fitted_surface.h"
 #include "soup/Vertex_values.h"
 #include "soup/Working_mesh.h"
+#include "soup/fit_attributes.h"
 #include "soup/fit_normals.h"
 #include "soup/fit_texture.h"
 #include "soup/obstacle.h"
@@ -69,12 +70,14 @@ const Corner_values<3>& normals_of(const Prepared_soup& prepared)
   return are_picked(prepared.normals) ? prepared.taken_normals : prepared.soup.normals;
 }
 
-// Fits the texture coordinates of vertices at new places. Returns how many have others than before.
-std::size_t fit_texture(const Fitted_surface& surface, const std::vector<Index_triple>& corners,
-                        const std::vector<char>& is_placed, Triangle_soup& result)
+// Finds the texture coordinates of vertices at new places, where they become others.
+std::vector<std::optional<Vertex_values::Stored_uv>> fitted_uvs(const Fitted_surface& surface,
+                                                                const Vertex_values& values,
+                                                                const std::vector<Index_triple>& corners,
+                                                                const std::vector<char>& is_placed)
 {
   using Coordinates = std::array<double, 2>;
-  const Vertex_values values(surface.original());
+  const Triangle_soup& result = surface.result();
   std::vector<char> is_free(result.points.size(), false);
   std::vector<Index> corner_of(result.points.size()); // of the original, by free vertex
   std::vector<Coordinates> before(result.points.size());
@@ -91,15 +94,27 @@ std::size_t fit_texture(const Fitted_surface& surface, const std::vector<Index_t
         last[v] = values.stored_uv(corner_of[v], uv);
         return last[v]->uv;
       });
-  std::size_t count = 0;
   for (Index v = 0; v < fitted.size(); ++v)
-    if (is_free[v] && fitted[v] != before[v])
-      ++count;
-    else
+    if (!is_free[v] || fitted[v] == before[v])
       last[v].reset();
-  if (count > 0)
-    values.put_uvs(last, result);
-  return count;
+  return last;
+}
+
+// Fits what vertices at new places have, but for normals.
+void fit_new_places(const Fitted_surface& surface, Simplified_soup& result)
+{
+  const Vertex_values values(surface.original());
+  Vertex_values::Fitted fitted;
+  if (!result.soup.uvs.empty())
+    fitted.uvs = fitted_uvs(surface, values, result.corners, result.is_placed);
+  fitted.values = fitted_attributes(surface, values, result.is_placed);
+  result.fitted_texture = std::size_t(
+      std::count_if(fitted.uvs.begin(), fitted.uvs.end(), [](const auto& uv) { return uv.has_value(); }));
+  for (std::size_t v = 0; v < result.soup.points.size(); ++v)
+    result.fitted_attributes += std::any_of(fitted.values.begin(), fitted.values.end(),
+                                            [&](const auto& of_vertex) { return !std::isnan(of_vertex[v]); });
+  if (result.fitted_texture + result.fitted_attributes > 0)
+    values.put(fitted, result.soup);
 }
 
 /// One reduction of a soup, which can be looked at on its way.
@@ -537,16 +552,16 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 
 void fit_values(Simplified_soup& result, const Prepared_soup& prepared, const Simplify_intent& intent)
 {
-  Triangle_soup& soup = result.soup;
-  const bool is_texture_fitted = !result.is_placed.empty() && !soup.uvs.empty();
-  if (!is_texture_fitted && !are_fitted(prepared.normals))
+  const bool has_new_places = !result.is_placed.empty();
+  if (!has_new_places && !are_fitted(prepared.normals))
     return;
-  const Fitted_surface surface(soup, result.triangles, result.corners, prepared.soup, prepared.positions);
-  if (is_texture_fitted)
-    result.fitted_texture = fit_texture(surface, result.corners, result.is_placed, soup);
+  const Fitted_surface surface(result.soup, result.triangles, result.corners, prepared.soup,
+                               prepared.positions);
+  if (has_new_places)
+    fit_new_places(surface, result);
   if (are_fitted(prepared.normals))
     result.fitted_normals =
-        fit_normals(surface, normals_of(prepared), frozen(prepared, intent), soup.normals);
+        fit_normals(surface, normals_of(prepared), frozen(prepared, intent), result.soup.normals);
 }
 
 namespace {

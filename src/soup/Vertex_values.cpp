@@ -23,6 +23,8 @@
 namespace selvedge {
 namespace {
 
+constexpr std::array<const char*, 4> s_colours = {"red", "green", "blue", "alpha"};
+
 template <class Values>
 bool are_float32(const Values& values)
 {
@@ -138,10 +140,10 @@ Vertex_values::Row Vertex_values::scene_row(Index corner) const
   return {&m_of_blocks[instance.block], scene_vertex - instance.first};
 }
 
-double Vertex_values::number(const Column& column, std::size_t row, std::size_t component)
+double Vertex_values::number(const Column& column, const void* row, std::size_t component)
 {
   return with_number(column.type, [&](auto number) {
-    std::memcpy(&number, column.rows + row * column.row_size + component * sizeof number, sizeof number);
+    std::memcpy(&number, static_cast<const char*>(row) + component * sizeof number, sizeof number);
     return double(number);
   });
 }
@@ -156,14 +158,91 @@ double Vertex_values::stored(const Column& column, double number, std::size_t co
   return with_number(column.type, [&](auto zero) { return double(nearest_number<decltype(zero)>(number)); });
 }
 
-void Vertex_values::write(const Column& column, const double* numbers, void* bytes)
+void Vertex_values::write(const Column& column, std::size_t component, double number, void* row)
 {
-  with_number(column.type, [&](auto number) {
-    for (std::size_t i = 0; i < column.components; ++i) {
-      number = static_cast<decltype(number)>(stored(column, numbers[i], i));
-      std::memcpy(static_cast<unsigned char*>(bytes) + i * sizeof number, &number, sizeof number);
-    }
+  with_number(column.type, [&](auto zero) {
+    const auto bytes = static_cast<decltype(zero)>(stored(column, number, component));
+    std::memcpy(static_cast<unsigned char*>(row) + component * sizeof bytes, &bytes, sizeof bytes);
   });
+}
+
+void Vertex_values::write(const Column& column, const double* numbers, void* row)
+{
+  for (std::size_t i = 0; i < column.components; ++i)
+    write(column, i, numbers[i], row);
+}
+
+// Colours of the soup are those of the first set in its scene, one column for each component.
+std::vector<Vertex_values::Component> Vertex_values::fitted_components() const
+{
+  using Name = std::pair<std::string, std::size_t>;
+  const auto is_fitted = [](const Column& column) {
+    return column.target == s_none && column.name != "NORMAL" && column.name != "TANGENT" &&
+           !begins_with(column.name, "TEXCOORD_") && !begins_with(column.name, "WEIGHTS_");
+  };
+  std::map<Name, Component> found;
+  for (std::size_t block = 0; block < m_of_blocks.size(); ++block)
+    for (const Column& column : m_of_blocks[block].columns)
+      for (std::size_t i = 0; i < column.components && is_fitted(column); ++i) {
+        Component& component = found[{column.name, i}];
+        component.in_scene = i;
+        component.of_blocks.resize(m_of_blocks.size(), nullptr);
+        component.of_blocks[block] = &column;
+      }
+  for (const Column& column : m_own.columns)
+    for (std::size_t i = 0; i < column.components && is_fitted(column); ++i) {
+      Name name(column.name, i);
+      if (m_soup.scene && column.components == 1)
+        for (std::size_t k = 0; k < s_colours.size(); ++k)
+          if (column.name == s_colours[k])
+            name = {"COLOR_0", k};
+      Component& component = found[name];
+      component.in_own = i;
+      component.own = &column;
+    }
+  std::vector<Component> result;
+  for (auto& [name, component] : found)
+    result.push_back(std::move(component));
+  return result;
+}
+
+Vertex_values::Place Vertex_values::place(const Component& component, const Triangle_soup& soup,
+                                          Index vertex) const
+{
+  if (component.of_blocks.empty())
+    return {component.own, component.in_own, vertex, nullptr};
+  const std::size_t number = soup.scene->instance_of(soup.scene_vertices[vertex]);
+  const Gltf_scene::Instance& instance = soup.scene->instances[number];
+  return {component.of_blocks[m_soup.scene->instances[number].block], component.in_scene,
+          soup.scene_vertices[vertex] - instance.first, &instance};
+}
+
+double Vertex_values::unit(const Column& column)
+{
+  return with_number(column.type, [&](auto number) {
+    using Number = decltype(number);
+    return std::is_integral_v<Number> && column.is_normalized ? double(std::numeric_limits<Number>::max())
+                                                              : 1;
+  });
+}
+
+double Vertex_values::value(const Component& component, const Triangle_soup& soup, Index vertex) const
+{
+  const auto [column, i, row, instance] = place(component, soup, vertex);
+  if (!column)
+    return std::numeric_limits<double>::quiet_NaN();
+  const void* const rows =
+      instance ? static_cast<const void*>(
+                     soup.scene->blocks[instance->block].attributes[column->place].rows.data())
+               : soup.vertex_attributes[column->place].rows.data();
+  return number(*column, static_cast<const char*>(rows) + row * column->row_size, i) / unit(*column);
+}
+
+double Vertex_values::stored_value(const Component& component, const Triangle_soup& soup, Index vertex,
+                                   double value) const
+{
+  const Place at = place(component, soup, vertex);
+  return stored(*at.column, value * unit(*at.column), at.component) / unit(*at.column);
 }
 
 Vertex_values::Numbers Vertex_values::numbers_of(const Share& share) const
@@ -505,26 +584,42 @@ void Vertex_values::put(const Of_vertices& of_vertex, Triangle_soup& result) con
   result = selected(result, triangles, corners); // drops the values that nobody shares any more
 }
 
-void Vertex_values::put_uvs(const std::vector<std::optional<Stored_uv>>& of_vertex,
-                            Triangle_soup& result) const
+void Vertex_values::put(const Fitted& fitted, Triangle_soup& result) const
 {
-  put([&](Index v) { return of_vertex[v] ? of_vertex[v]->uv.data() : nullptr; }, result, result.uvs);
-  if (!m_soup.scene)
-    return;
-  const auto scene = std::make_shared<Gltf_scene>(*result.scene);
-  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
-    if (!of_vertex[v])
+  const auto& uvs = fitted.uvs;
+  if (!uvs.empty())
+    put([&](Index v) { return uvs[v] ? uvs[v]->uv.data() : nullptr; }, result, result.uvs);
+  const auto scene = m_soup.scene ? std::make_shared<Gltf_scene>(*result.scene) : nullptr;
+  const auto row_in_scene = [&](const Column& column, const Gltf_scene::Instance& instance, std::size_t row) {
+    return scene->blocks[instance.block].attributes[column.place].rows.data() + row * column.row_size;
+  };
+  const auto row_of_soup = [&](const Column& column, std::size_t row) {
+    return result.vertex_attributes[column.place].rows.data() + row * column.row_size;
+  };
+  for (std::size_t v = 0; v < uvs.size() && scene; ++v) {
+    if (!uvs[v])
       continue;
     const std::size_t number = scene->instance_of(result.scene_vertices[v]);
     const Gltf_scene::Instance& instance = scene->instances[number];
     const Table& table = m_of_blocks[m_soup.scene->instances[number].block];
-    if (const Column* const column = table.find("TEXCOORD_0", 2)) {
-      Gltf_scene::Column& written = scene->blocks[instance.block].attributes[column->place];
-      write(*column, of_vertex[v]->in_scene.data(),
-            written.rows.data() + (result.scene_vertices[v] - instance.first) * written.row_size);
-    }
+    if (const Column* const column = table.find("TEXCOORD_0", 2))
+      write(*column, uvs[v]->in_scene.data(),
+            row_in_scene(*column, instance, result.scene_vertices[v] - instance.first));
   }
-  result.scene = scene;
+  const std::vector<Component> components = fitted_components();
+  for (std::size_t c = 0; c < fitted.values.size(); ++c)
+    for (std::size_t v = 0; v < fitted.values[c].size(); ++v) {
+      const double value = fitted.values[c][v];
+      if (std::isnan(value))
+        continue;
+      const auto [column, i, row, instance] = place(components[c], result, Index(v));
+      if (instance)
+        write(*column, i, value * unit(*column), row_in_scene(*column, *instance, row));
+      if (const Column* const own = components[c].own)
+        write(*own, components[c].in_own, value * unit(*own), row_of_soup(*own, v));
+    }
+  if (scene)
+    result.scene = scene;
 }
 
 } // namespace selvedge

@@ -64,6 +64,20 @@ public:
   };
   Stored_uv stored_uv(Index corner, const std::array<double, 2>& uv) const;
 
+  /// A number of vertices that can be fitted: a component of an attribute that is mixed, but not of texture
+  /// coordinates, of normals and tangents, which have a length, of the weights of joints, which have a sum,
+  /// and of what morph targets add.
+  class Component;
+  std::vector<Component> fitted_components() const;
+
+  /// Returns this number of a vertex of the soup, or of one that was selected from it and has had its numbers
+  /// `put`; a fraction where integers stand for fractions, NaN if the vertex does not have it.
+  double value(const Component& component, const Triangle_soup& soup, Index vertex) const;
+
+  /// Returns what becomes of it when the vertex stores it, which must have it.
+  double stored_value(const Component& component, const Triangle_soup& soup, Index vertex,
+                      double value) const;
+
   /// Returns the normal alone among such numbers. The soup must have some.
   std::array<double, 3> normal(const Numbers& numbers) const
   {
@@ -78,8 +92,16 @@ public:
   /// glTF scene, which becomes one of its own. Corners of other vertices keep their values.
   void put(const Of_vertices& of_vertex, Triangle_soup& result) const;
 
-  /// Writes texture coordinates alone, where there are some, after `put` has written all.
-  void put_uvs(const std::vector<std::optional<Stored_uv>>& of_vertex, Triangle_soup& result) const;
+  /// Texture coordinates, where there are some, and values of `fitted_components`, where they are not NaN, by
+  /// vertex. Each list may be empty.
+  struct Fitted
+  {
+    std::vector<std::optional<Stored_uv>> uvs;
+    std::vector<std::vector<double>> values; ///< by component
+  };
+
+  /// Writes these alone, after `put` has written all.
+  void put(const Fitted& fitted, Triangle_soup& result) const;
 
 private:
   static constexpr std::size_t s_none = std::size_t(-1);
@@ -115,6 +137,16 @@ private:
   static Table table(std::size_t first, const std::vector<Column>& columns);
   static bool is_mixed(const Column& column);
 
+  // Where a soup has a number of a vertex: a component of a row in its scene, or in a column of its own.
+  struct Place
+  {
+    const Column* column; // null if the vertex does not have it
+    std::size_t component, row;
+    const Gltf_scene::Instance* instance; // null in a column of the soup
+  };
+  Place place(const Component& component, const Triangle_soup& soup, Index vertex) const;
+  static double unit(const Column& column); // what integers stand for fractions of
+
   // Where a vertex, or a corner, has its rows.
   struct Row
   {
@@ -128,9 +160,14 @@ private:
 
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   Numbers numbers_of(const Share& share) const;
-  static double number(const Column& column, std::size_t row, std::size_t component);
+  static double number(const Column& column, std::size_t row, std::size_t component)
+  {
+    return number(column, column.rows + row * column.row_size, component);
+  }
+  static double number(const Column& column, const void* row, std::size_t component);
   static double stored(const Column& column, double number, std::size_t component);
-  static void write(const Column& column, const double* numbers, void* bytes);
+  static void write(const Column& column, std::size_t component, double number, void* row);
+  static void write(const Column& column, const double* numbers, void* row);
   static void normalize(const Column& column, const Numbers& own, Numbers& numbers);
   template <class Row_of>
   static void mix_influences(const Row_of& row_of, const Shares& shares, const Share& own, Numbers& numbers);
@@ -148,6 +185,15 @@ private:
   Table m_own;
   std::vector<Table> m_of_blocks;      // their numbers follow those of the soup
   std::map<Index, Index> m_of_corners; // vertices of the scene, at poles
+};
+
+class Vertex_values::Component
+{
+  friend class Vertex_values;
+  std::size_t in_scene = 0;             // which component of the columns of the scene
+  std::vector<const Column*> of_blocks; // null in a block that does not have it; empty if none has it
+  std::size_t in_own = 0;               // likewise in that of the soup
+  const Column* own = nullptr;          // null if the scene alone has it
 };
 
 } // namespace selvedge

@@ -364,6 +364,17 @@ group("src/soup/Fitted_surface.h", ("fit_texture_test",),
       ("result[t] = sets.find(t);", "result[t] = 0;", "the texture of a layer is fitted to the one beside it"),
       ("!is_free(i) && !is_changed(i)", "!is_free(i)", "a face that has changed is no sample of the texture"),
       sources=("src/soup/fit_texture.cpp",))
+group("src/soup/fit_attributes.cpp", ("fit_attributes_test",),
+      ("std::clamp(best[v][0], low[v][0], high[v][0])", "best[v][0]", "a fitted colour goes beyond a jump"),
+      ("values[v] == values[w]", "true", "colours are fitted across a border between them"),
+      ("is_fixed[v] = !m_is_free[v];", "is_fixed[v] = false;", "colours of vertices that have not moved are fitted"),
+      ("moments[sample.of_result].add(sample.weights, value, sample.weight);", ";", "colours are fitted to nothing"),
+      ("if (!std::isfinite(value[0]) ||", "if (", "what has no colour is a sample of one"))
+group("src/soup/Vertex_values.cpp", ("gltf_writing_test:Gltf.Colours*",),
+      ("if (const Column* const own = components[c].own)", "if (const Column* const own = nullptr)",
+       "a soup keeps the colours that are fitted in its scene"),
+      ('!begins_with(column.name, "WEIGHTS_");', "true;", "weights of joints are fitted, and lose their sum"),
+      ('column.name != "NORMAL" && column.name != "TANGENT"', "true", "tangents are fitted, and lose their length"))
 group("src/simplify/simplify_soup.cpp", ("fit_texture_test",),
       ("if (m_options.are_values_fitted)", "if (true)", "results that are thrown away are fitted"))
 group("src/files/triangulate_polygon.cpp", ("mesh_files_content_test",),

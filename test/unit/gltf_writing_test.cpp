@@ -500,6 +500,52 @@ TEST(Gltf, ValuesAtNewPlacesAreInterpolated)
   expect_interpolated<std::uint16_t>(5123);
 }
 
+// The scene has colours in fractions of integers, which the soup has as well, and others that it has alone.
+TEST(Gltf, ColoursAtNewPlacesAreFitted)
+{
+  const Temporary_folder folder;
+  Document before = waves<float>(5126);
+  Json& primitive = before.json["meshes"][0]["primitives"][0];
+  Json& attributes = primitive["attributes"];
+  const std::vector<std::string> points = rows_of(before, attributes["POSITION"]);
+  const auto colour = [&](std::size_t i, std::size_t k) {
+    return 0.5 + 0.4 * std::sin(double(k + 2) * 6 * get<float>(points[i], 0) + get<float>(points[i], 4));
+  };
+  attributes["COLOR_0"] = add_rows<std::uint16_t>(
+      before, points.size(), 3, 5123,
+      [&](std::size_t i, std::size_t k) { return std::lround(65535 * colour(i, k)); }, true);
+  attributes["COLOR_1"] = add_rows<float>(before, points.size(), 4, 5126, colour);
+  const Triangle_soup soup = read_glb(before).soup;
+  std::vector<std::array<std::vector<std::string>, 4>> rows; // fitted, and not
+  for (const bool are_fitted : {true, false}) {
+    Simplify_options options;
+    options.ratio = 0.3;
+    options.placement = Placement::optimal;
+    options.are_values_fitted = are_fitted;
+    const Simplified_soup result = simplify_soup(prepare(soup), options);
+    EXPECT_EQ(result.fitted_attributes > 10, are_fitted);
+    write_mesh(folder / "a.glb", result.soup);
+    const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+    ASSERT_EQ(again.triangles, result.soup.triangles);
+    ASSERT_EQ(again.vertex_attributes.size(), result.soup.vertex_attributes.size());
+    for (std::size_t i = 0; i < again.vertex_attributes.size(); ++i)
+      if (const Attribute& written = result.soup.vertex_attributes[i]; written.name != "TANGENT") {
+        EXPECT_EQ(again.vertex_attributes[i].rows, written.rows) << written.name;
+      }
+    const Document after = from_glb(contents(folder / "a.glb"));
+    const Json& now = after.json["meshes"][0]["primitives"][0]["attributes"];
+    rows.push_back({rows_of(after, now["COLOR_0"]), rows_of(after, now["COLOR_1"]),
+                    rows_of(after, now["WEIGHTS_0"]), rows_of(after, now["TANGENT"])});
+  }
+  EXPECT_NE(rows[0][0], rows[1][0]);
+  EXPECT_NE(rows[0][1], rows[1][1]);
+  EXPECT_EQ(rows[0][2], rows[1][2]);
+  EXPECT_EQ(rows[0][3], rows[1][3]);
+  for (std::size_t i = 0; i < rows[0][0].size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(get<std::uint16_t>(rows[0][0][i], 2 * k) / 65535., get<float>(rows[0][1][i], 4 * k), 2e-5);
+}
+
 // The weight of a joint that few vertices have is lost where it is mixed with others and rounded.
 TEST(Gltf, JointsThatLoseTheirWeightAreZero)
 {

@@ -188,6 +188,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["mended_normals"];
   if (run.result.fitted_normals > 0)
     ++counts.options["fitted_normals"];
+  if (run.result.fitted_attributes > 0)
+    ++counts.options["fitted_attributes"];
   if (run.prepared.normals == Normals_treatment::picked && !run.collapses.empty())
     ++counts.options["picked_normals"];
   if (run.prepared.normals == Normals_treatment::softened && !run.collapses.empty())

@@ -378,6 +378,21 @@ void decorate(Triangle_soup& soup, Random& random)
   }
 }
 
+void paint(Triangle_soup& soup)
+{
+  for (const char* const name : {"red", "green", "blue"}) {
+    Attribute numbers;
+    numbers.name = name;
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+      const double number = double((v + 1) * (7 + soup.vertex_attributes.size()) * 37 % 101) / 100;
+      unsigned char bytes[sizeof number];
+      std::memcpy(bytes, &number, sizeof number);
+      numbers.rows.insert(numbers.rows.end(), bytes, bytes + sizeof number);
+    }
+    soup.vertex_attributes.push_back(std::move(numbers));
+  }
+}
+
 void add_poles(Triangle_soup& soup, Random& random)
 {
   const auto same_place = [&](Index v, Index w) { return soup.points[v] == soup.points[w]; };

@@ -33,6 +33,9 @@ std::string displace(Triangle_soup& soup, Random& random);
 /// holds them.
 void decorate(Triangle_soup& soup, Random& random);
 
+/// Gives vertices colours, which differ much and do not follow the shape.
+void paint(Triangle_soup& soup);
+
 /// Makes poles of some vertices: the triangles there have texture coordinates, normals or vertices of their
 /// own, all of them or a few.
 void add_poles(Triangle_soup& soup, Random& random);

@@ -696,6 +696,9 @@ World random_world(std::uint64_t seed)
   if (world.seed % 4 <= 1 && world.intent.weights.empty() && !world.soup.vertex_attributes.empty() &&
       !world.soup.scene)
     world.dropped.push_back(world.soup.vertex_attributes.back().name);
+  if (world.seed % 4 == 2 && world.soup.vertex_attributes.empty() && !world.soup.scene &&
+      world.input_format != Mesh_format::stl) // here as well
+    paint(world.soup);
   choose_dropped_parts(world);
   return world;
 }

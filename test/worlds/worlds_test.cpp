@@ -58,6 +58,7 @@ TEST(Worlds, KeepEveryPromise)
 #endif
   EXPECT_GT(counts.options["mended_normals"], 0u);
   EXPECT_GT(counts.options["fitted_normals"], 0u);
+  EXPECT_GT(counts.options["fitted_attributes"], 0u);
   EXPECT_GT(counts.options["picked_normals"], 0u);
   EXPECT_GT(counts.options["softened_normals"], 0u);
   EXPECT_GT(counts.twins, s_seeds);

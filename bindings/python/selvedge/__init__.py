@@ -119,7 +119,7 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
     groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`,
     `drop_part`, `part_ratios` and `may_intersect` ("A:B") refer to the names.
     attributes: what else vertices have, such as colours: a dictionary of arrays with a row for each. `Result.attributes` has
-    them of the result, interpolated where placement="optimal" has put a vertex to a new place.
+    them of the result, interpolated and fitted where placement="optimal" has put a vertex to a new place.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
     legal in each. Those of the result are poses[:, result.vertices]. With key_poses="auto", for many poses, collapses are
     judged in a few that differ most, and in those in which the result would have new pairs; the result is judged in all.
