@@ -27,7 +27,8 @@ template <std::size_t dimension>
 Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Wedge_numbers& numbers,
                                       const Scale& scale, const Simplify_constraints<Mesh>& constraints,
                                       double unit, const std::vector<Value>* of_vertices)
-    : m_corners(corners), m_unit(unit), m_table(corners, numbers), m_wedges(numbers.vertices.size())
+    : m_corners(corners), m_unit(unit), m_values(of_vertices ? *of_vertices : of_corners().values),
+      m_table(corners, numbers), m_wedges(numbers.vertices.size())
 {
   Cancellation_poll poll;
   for (const Corner_mesh::Face face : mesh().faces()) {
@@ -35,16 +36,20 @@ Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Wedge_nu
     if (!corners.is_own(face))
       break; // the faces of the obstacle come last
     std::array<Vector, 3> points;
+    Index_triple value_numbers;
     std::array<Value, 3> values;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Point_3 p = scale(corners.soup().points[corners.vertex_of(corners.corners(face)[k])]);
+      const Corner_mesh::Corner corner = corners.corners(face)[k];
+      const Point_3 p = scale(corners.soup().points[corners.vertex_of(corner)]);
       points[k] = {p.x(), p.y(), p.z()};
-      values[k] = at_unit(value_of(corners.corners(face)[k], of_vertices));
+      value_numbers[k] =
+          of_vertices ? corners.vertex_of(corner) : of_corners().of_triangle[corner / 3][corner % 3];
+      values[k] = value(value_numbers[k]);
     }
     const Quadric of_face(points, values, 1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index number = numbers.of_face[face][k];
-      m_wedges[number].value = values[k];
+      m_wedges[number].value = value_numbers[k];
       m_wedges[number].quadric +=
           constraints.vertex_weights.empty()
               ? of_face
@@ -93,7 +98,7 @@ double Value_wedges<dimension>::cost(Halfedge moving) const
   double cost = 0;
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     const Wedge& wedge = m_wedges[from];
-    cost += wedge.quadric(along(moving), wedge.value_motion(m_wedges[to].value));
+    cost += wedge.quadric(along(moving), value_motion(wedge, m_wedges[to]));
   });
   return std::max(0.0, cost); // rounding may leave a sum slightly below zero
 }
@@ -104,10 +109,10 @@ double Value_wedges<dimension>::cost_at(Halfedge edge, const Point_3& place) con
   double cost = 0;
   for_each_moved_wedge(edge, [&](Index from, Index to) {
     const Wedge &first = m_wedges[from], &second = m_wedges[to];
-    const Value value_motion = first.value_motion(second.value);
-    Quadric sum = first.quadric.moved_by(along(edge), value_motion);
+    const Value of_value = value_motion(first, second);
+    Quadric sum = first.quadric.moved_by(along(edge), of_value);
     sum += second.quadric;
-    cost += first.quadric(along(edge), value_motion) + sum.least(motion(mesh().target(edge), place));
+    cost += first.quadric(along(edge), of_value) + sum.least(motion(mesh().target(edge), place));
   });
   return std::max(0.0, cost);
 }
@@ -118,7 +123,7 @@ void Value_wedges<dimension>::merge(Halfedge moving)
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    merged.quadric += gone.quadric.moved_by(along(moving), gone.value_motion(merged.value));
+    merged.quadric += gone.quadric.moved_by(along(moving), value_motion(gone, merged));
   });
   m_table.on_merging(mesh().source(moving), mesh().target(moving));
 }
@@ -131,17 +136,25 @@ void Value_wedges<dimension>::merge_at(Halfedge moving, const Point_3& place,
     // No line meets a vertex at a new place, so that there is one wedge at either end.
     const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    const Value value = of_soup ? at_unit(*of_soup) : merged.value;
+    const Value before = value(merged.value);
+    Value now = of_soup ? at_unit(*of_soup) : before;
     merged.quadric =
-        merged.quadric.moved_by(motion(mesh().target(moving), place), merged.value_motion(value));
-    merged.quadric += gone.quadric.moved_by(motion(mesh().source(moving), place), gone.value_motion(value));
-    merged.value = value;
-    if (of_soup)
-      return;
-    const Value best = merged.quadric.best_value_motion();
-    merged.quadric = merged.quadric.moved_by({0, 0, 0}, best);
-    for (std::size_t k = 0; k < dimension; ++k)
-      merged.value[k] += best[k];
+        merged.quadric.moved_by(motion(mesh().target(moving), place), motion_between(before, now));
+    merged.quadric +=
+        gone.quadric.moved_by(motion(mesh().source(moving), place), motion_between(value(gone.value), now));
+    if (!of_soup) {
+      const Value best = merged.quadric.best_value_motion();
+      merged.quadric = merged.quadric.moved_by({0, 0, 0}, best);
+      for (std::size_t k = 0; k < dimension; ++k)
+        now[k] += best[k];
+    }
+    // A new value takes the room of that which one of both had.
+    merged.value = std::max(merged.value, gone.value);
+    if (merged.value < m_values.size()) {
+      merged.value = Index(m_values.size() + m_new_values.size());
+      m_new_values.emplace_back();
+    }
+    m_new_values[merged.value - m_values.size()] = now;
   });
   m_table.on_merging(mesh().source(moving), mesh().target(moving));
 }

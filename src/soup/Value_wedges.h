@@ -57,15 +57,7 @@ private:
   struct Wedge
   {
     Quadric quadric; // its origin is the wedge
-    Value value;
-
-    Value value_motion(const Value& to) const
-    {
-      Value motion;
-      for (std::size_t k = 0; k < dimension; ++k)
-        motion[k] = to[k] - value[k];
-      return motion;
-    }
+    Index value;     // its number among those of the soup or, after these, among the new ones
   };
 
   Value_wedges(const Corner_mesh& corners, const Wedge_numbers& numbers, const Scale& scale,
@@ -83,18 +75,33 @@ private:
       x *= m_unit;
     return value;
   }
-  Value value_of(Index corner, const std::vector<Value>* of_vertices) const
+  const Corner_values<dimension>& of_corners() const
   {
-    if (of_vertices)
-      return (*of_vertices)[m_corners.vertex_of(corner)];
     if constexpr (dimension == 2)
-      return m_corners.uv_of(corner);
+      return m_corners.soup().uvs;
     else
-      return m_corners.normal_of(corner);
+      return m_corners.soup().normals;
+  }
+  Value value(Index number) const
+  {
+    return number < m_values.size() ? at_unit(m_values[number]) : m_new_values[number - m_values.size()];
+  }
+  static Value motion_between(const Value& from, const Value& to)
+  {
+    Value result;
+    for (std::size_t k = 0; k < dimension; ++k)
+      result[k] = to[k] - from[k];
+    return result;
+  }
+  Value value_motion(const Wedge& from, const Wedge& to) const
+  {
+    return motion_between(value(from.value), value(to.value));
   }
 
   const Corner_mesh& m_corners;
   double m_unit;
+  const std::vector<Value>& m_values; // of the soup, in no unit
+  std::vector<Value> m_new_values;    // of wedges at new places
   Wedge_table m_table;
   std::vector<Wedge> m_wedges;
 };
