@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -142,12 +143,15 @@ class Edge_collapse
   static constexpr unsigned char s_gone = 255;
   struct Edge_record
   {
-    // The cost and `is_queued` repeat what the queue knows, so that a look at an edge reads one place.
-    float cost = 0;               // roughly, of an edge in the queue
-    unsigned char rank = s_gone;  // of the placement that is next, from 0
-    Merged_at at = Merged_at::v0; // which place this is, if the placement has `choice`
-    bool is_queued = false;
-    bool is_outdated = false; // the cost is computed again when the edge leaves the queue
+    // The class and `is_queued` repeat what the queue knows, so that a look at an edge mostly reads one
+    // place.
+    std::uint16_t class_of_cost = 0; // of an edge in the queue
+    unsigned char rank = s_gone;     // of the placement that is next, from 0
+    Merged_at at : 2;                // which place this is, if the placement has `choice`
+    bool is_queued : 1;
+    bool is_outdated : 1; // the cost is computed again when the edge leaves the queue
+
+    Edge_record() : at(Merged_at::v0), is_queued(false), is_outdated(false) {}
   };
 
   // Changes of costs that can wait are noticed at once up to this multiple of the cost of the last edge taken
@@ -164,7 +168,7 @@ public:
         m_visitor(visitor), m_is_geometry_tested(is_geometry_tested),
         m_expected_collapses(expected_collapses), m_records(num_edges(mesh)),
         m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
-        m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
+        m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<bool>(), mesh))
   {
   }
 
@@ -386,7 +390,7 @@ private:
         if (is_stale(record))
           refresh(g);
         else if (is_wide && opposite(g, m_mesh) != looked_at_beyond && is_reached(kept, edge(g, m_mesh))) {
-          if (record.cost > s_near * m_front && can_wait(kept, edge(g, m_mesh)))
+          if (is_far(id(g)) && can_wait(kept, edge(g, m_mesh)))
             record.is_outdated = true;
           else
             refresh(g);
@@ -415,6 +419,14 @@ private:
             Collapse_locality<Cost>::can_wait(m_cost, kept, e)) &&
            (!Collapse_locality<Placement>::reaches(m_placement, kept, e) ||
             Collapse_locality<Placement>::can_wait(m_placement, kept, e));
+  }
+
+  // Whether an edge in the queue costs so much that changes of its cost can wait.
+  bool is_far(Id edge_id) const
+  {
+    const float limit = s_near * m_front;
+    const std::uint32_t of_edge = m_records[edge_id].class_of_cost, of_limit = class_of_cost(limit);
+    return of_edge != of_limit ? of_edge > of_limit : as_float(m_queue.cost(edge_id)) > limit;
   }
 
   static bool is_stale(const Edge_record& record) { return record.rank > 0 || !record.is_queued; }
@@ -462,7 +474,7 @@ private:
   }
   void note_queued(Id edge_id, const FT& cost)
   {
-    m_records[edge_id].cost = as_float(cost);
+    m_records[edge_id].class_of_cost = std::uint16_t(class_of_cost(as_float(cost)));
     m_records[edge_id].is_queued = true;
   }
   void dequeue(Id edge_id)
@@ -553,8 +565,7 @@ private:
   Queue m_queue;
   Waiting_edges<TriangleMesh> m_waiting;
   // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
-      m_has_stale_edges;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<bool>>::type m_has_stale_edges;
   Size m_initial_edges = 0, m_edges = 0;
   Topology_test<TriangleMesh> m_topology;
 };

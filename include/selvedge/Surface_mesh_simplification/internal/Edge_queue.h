@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,9 +30,9 @@ inline std::uint32_t class_of_cost(double cost)
   return std::uint32_t(bits >> 49);
 }
 
-/// A cost as it is kept beside the number of an edge: a `double` in two halves, so that both take 12 bytes
-/// and not 16.
-template <class FT>
+/// A cost as it is kept beside a small number: a number of the machine in parts of 16 bits, so that no room
+/// is lost between them.
+template <class FT, bool is_of_machine = std::is_arithmetic_v<FT>>
 class Compact_cost
 {
 public:
@@ -42,21 +43,21 @@ public:
 private:
   FT m_cost;
 };
-template <>
-class Compact_cost<double>
+template <class FT>
+class Compact_cost<FT, true>
 {
 public:
   Compact_cost() = default;
-  Compact_cost(double cost) { std::memcpy(m_halves.data(), &cost, sizeof cost); }
-  double get() const
+  Compact_cost(FT cost) { std::memcpy(m_parts.data(), &cost, sizeof cost); }
+  FT get() const
   {
-    double cost;
-    std::memcpy(&cost, m_halves.data(), sizeof cost);
+    FT cost;
+    std::memcpy(&cost, m_parts.data(), sizeof cost);
     return cost;
   }
 
 private:
-  std::array<std::uint32_t, 2> m_halves;
+  std::array<std::uint16_t, sizeof(FT) / sizeof(std::uint16_t)> m_parts;
 };
 
 /// A priority queue of numbered edges by (cost, number): the cheapest edge comes first, and of equally cheap
@@ -70,7 +71,7 @@ private:
 /// It exists because costs change while edges are in the queue: each edge knows its place in the heap of its
 /// tile. Every node of a heap has four children and holds its cost, so that a comparison reads no other
 /// memory. A change reads and writes one heap, which is as near in memory as its edges are. The tile of the
-/// first edge is the winner of a tournament. Without relaxed order, all edges are one tile.
+/// first edge is the winner of a tournament. An edge takes 12 bytes, with a cost of 8.
 ///
 /// **Complexity** O(log n) for each change, O(n) for `sort`.
 template <class FT>
@@ -81,28 +82,28 @@ public:
 
   /// Makes an empty queue for edges numbered 0 … edges−1, of which there are less than 2^31.
   explicit Edge_queue(std::size_t edges, bool is_relaxed = false)
-      : m_tile_bits(is_relaxed ? s_tile_bits : 31), m_entries(edges), m_places(edges, s_nowhere),
-        m_sizes((edges >> m_tile_bits) + 1, 0)
+      : m_is_relaxed(is_relaxed), m_entries(edges), m_places(edges, s_nowhere),
+        m_sizes((edges >> s_tile_bits) + 1, 0)
   {
     while (m_leaves < m_sizes.size())
       m_leaves *= 2;
-    m_keys.assign(2 * m_leaves, s_nowhere);
+    m_keys.resize(2 * m_leaves);
   }
 
-  bool is_empty() const { return m_keys[1] == s_nowhere; }
+  bool is_empty() const { return m_keys[1].tile == s_no_tile; }
 
   /// Puts an edge that is not in the queue behind all others of its tile. Once edges were appended, `sort`
   /// must be called before any other function.
   void append(Id edge, const FT& cost)
   {
     Heap heap = heap_of(edge);
-    heap.put(heap.size++, {cost, edge});
+    heap.put(heap.size++, {cost, local(edge)});
   }
   void sort()
   {
     for (std::size_t tile = 0; tile < m_sizes.size(); ++tile) {
       Heap heap = heap_at(tile);
-      for (Id i = parent(heap.size) + 1; i-- > 0 && heap.size > 0;)
+      for (Local i = parent(heap.size) + 1; i-- > 0 && heap.size > 0;)
         heap.sink(i, Entry(heap.entries[i]));
       update_key(tile);
     }
@@ -112,44 +113,51 @@ public:
   void set(Id edge, const FT& cost)
   {
     Heap heap = heap_of(edge);
-    const Id place_before = m_places[edge];
+    const Local place_before = m_places[edge];
     if (place_before != s_nowhere)
-      heap.replace(place_before, {cost, edge});
+      heap.replace(place_before, {cost, local(edge)});
     else
-      heap.rise(heap.size++, {cost, edge});
+      heap.rise(heap.size++, {cost, local(edge)});
     if (place_before == 0 || m_places[edge] == 0)
-      update_key(edge >> m_tile_bits);
+      update_key(edge >> s_tile_bits);
   }
 
   /// Removes an edge if it is in the queue.
   void erase(Id edge)
   {
-    const Id place = m_places[edge];
+    const Local place = m_places[edge];
     if (place == s_nowhere)
       return;
     heap_of(edge).erase_at(place);
     if (place == 0)
-      update_key(edge >> m_tile_bits);
+      update_key(edge >> s_tile_bits);
+  }
+
+  /// Returns the cost of an edge that is in the queue.
+  FT cost(Id edge) const
+  {
+    return m_entries[(edge >> s_tile_bits << s_tile_bits) + m_places[edge]].cost.get();
   }
 
   /// Whether no edge is left of the classes that have been merged.
-  bool are_merged_classes_gone() const { return m_keys[1] >> s_bits_of_tiles > m_merged_class; }
+  bool are_merged_classes_gone() const { return is_empty() || m_keys[1].rank > FT(int(m_merged_class)); }
 
   /// Makes one class of the classes of about the `count` cheapest edges, as a sample of the queue tells.
-  /// Returns false, and does nothing, where these are less than 16 for each tile, or where there is one tile
-  /// only. Call it when the merged classes are gone, and the queue is not empty.
+  /// Returns false, and does nothing, where these are less than 16 for each tile, where there is one tile
+  /// only, or where the order is not relaxed. Call it when the merged classes are gone, and the queue is not
+  /// empty.
   bool merge_classes(std::size_t count)
   {
     constexpr std::size_t least_per_tile = 16;
-    if (m_sizes.size() == 1 || count < least_per_tile * m_sizes.size())
+    if (!m_is_relaxed || m_sizes.size() == 1 || count < least_per_tile * m_sizes.size())
       return false;
-    constexpr Id sampled = 8; // one entry of so many
+    constexpr Local sampled = 8; // one entry of so many
     std::size_t edges = 0;
-    std::vector<Id> classes;
+    std::vector<std::uint32_t> classes;
     for (std::size_t tile = 0; tile < m_sizes.size(); ++tile) {
       const Heap heap = heap_at(tile);
       edges += heap.size;
-      for (Id i = 0; i < heap.size; i += sampled)
+      for (Local i = 0; i < heap.size; i += sampled)
         classes.push_back(class_of(heap.entries[i]));
     }
     const std::size_t rank =
@@ -165,28 +173,30 @@ public:
   /// Whether an edge that is not in the queue would be its first with this cost.
   bool would_be_first(Id edge, const FT& cost) const
   {
-    const Id tile = edge >> m_tile_bits;
-    const Entry entry{cost, edge};
-    const Id key = key_of(entry, tile);
-    return key == m_keys[1] ? entry < m_entries[tile << m_tile_bits] : key < m_keys[1];
+    const Id tile = edge >> s_tile_bits;
+    const Entry entry{cost, local(edge)};
+    const Key key = key_of(entry, tile);
+    return key == m_keys[1] ? entry < first_of(tile) : key < m_keys[1];
   }
 
   /// Removes the first edge and returns it with its cost. The queue must not be empty.
   std::pair<FT, Id> pop()
   {
-    const std::size_t tile = m_keys[1] & ((Id(1) << s_bits_of_tiles) - 1);
+    const Id tile = m_keys[1].tile;
     Heap heap = heap_at(tile);
     const Entry first = heap.entries[0];
     heap.erase_at(0);
     update_key(tile);
-    return {first.cost.get(), first.edge};
+    return {first.cost.get(), tile << s_tile_bits | first.edge};
   }
 
 private:
+  using Local = std::uint16_t; // the number of an edge in its tile, or of an entry in a heap
+
   struct Entry
   {
     Compact_cost<FT> cost;
-    Id edge;
+    Local edge;
 
     friend bool operator<(const Entry& a, const Entry& b)
     {
@@ -195,29 +205,50 @@ private:
     }
   };
 
-  static constexpr Id s_nowhere = (std::numeric_limits<Id>::max)();
-  static constexpr Id s_children = 4;
+  static constexpr Id s_no_tile = (std::numeric_limits<Id>::max)();
+  static constexpr Local s_nowhere = (std::numeric_limits<Local>::max)();
+  static constexpr Local s_children = 4;
   static constexpr int s_tile_bits = 13;
-  static constexpr int s_bits_of_tiles = 31 - s_tile_bits;
 
-  static Id class_of(const Entry& entry) { return class_of_cost(CGAL::to_double(entry.cost.get())); }
+  // The order in which tiles come: by the cost of the first edge or, in relaxed order, by its class. Tiles
+  // without edges come last.
+  struct Key
+  {
+    FT rank = 0;
+    Id tile = s_no_tile;
 
-  static Id parent(Id i) { return i == 0 ? 0 : (i - 1) / s_children; }
+    friend bool operator<(const Key& a, const Key& b)
+    {
+      return b.tile == s_no_tile || a.tile == s_no_tile
+                 ? a.tile < b.tile
+                 : a.rank < b.rank || (a.rank == b.rank && a.tile < b.tile);
+    }
+    friend bool operator==(const Key& a, const Key& b) { return a.tile == b.tile && a.rank == b.rank; }
+  };
+
+  static std::uint32_t class_of(const Entry& entry)
+  {
+    return class_of_cost(CGAL::to_double(entry.cost.get()));
+  }
+
+  static Local local(Id edge) { return Local(edge & ((Id(1) << s_tile_bits) - 1)); }
+
+  static Local parent(Local i) { return i == 0 ? 0 : Local((i - 1) / s_children); }
 
   // The edges of a tile that are in the queue.
   struct Heap
   {
     Entry* entries;
-    Id& size;
-    std::vector<Id>& places;
+    Local& size;
+    Local* places;
 
-    void put(Id i, const Entry& entry)
+    void put(Local i, const Entry& entry)
     {
       entries[i] = entry;
       places[entry.edge] = i;
     }
 
-    void erase_at(Id i)
+    void erase_at(Local i)
     {
       places[entries[i].edge] = s_nowhere;
       const Entry last = entries[--size];
@@ -225,7 +256,7 @@ private:
         replace(i, last);
     }
 
-    void replace(Id i, const Entry& entry)
+    void replace(Local i, const Entry& entry)
     {
       if (i > 0 && entry < entries[parent(i)])
         rise(i, entry);
@@ -233,22 +264,22 @@ private:
         sink(i, entry);
     }
 
-    void rise(Id i, const Entry& entry)
+    void rise(Local i, const Entry& entry)
     {
       for (; i > 0 && entry < entries[parent(i)]; i = parent(i))
         put(i, entries[parent(i)]);
       put(i, entry);
     }
 
-    void sink(Id i, const Entry& entry)
+    void sink(Local i, const Entry& entry)
     {
       for (;;) {
-        const Id first = s_children * i + 1;
+        const Local first = Local(s_children * i + 1);
         if (first >= size)
           break;
-        const Id beyond = (std::min)(first + s_children, size);
-        Id least = first;
-        for (Id child = first + 1; child < beyond; ++child)
+        const Local beyond = (std::min)(Local(first + s_children), size);
+        Local least = first;
+        for (Local child = Local(first + 1); child < beyond; ++child)
           if (entries[child] < entries[least])
             least = child;
         if (!(entries[least] < entry))
@@ -262,22 +293,22 @@ private:
 
   Heap heap_at(std::size_t tile)
   {
-    return {m_entries.data() + (tile << m_tile_bits), m_sizes[tile], m_places};
+    return {m_entries.data() + (tile << s_tile_bits), m_sizes[tile], m_places.data() + (tile << s_tile_bits)};
   }
-  Heap heap_of(Id edge) { return heap_at(edge >> m_tile_bits); }
+  Heap heap_of(Id edge) { return heap_at(edge >> s_tile_bits); }
+  const Entry& first_of(std::size_t tile) const { return m_entries[tile << s_tile_bits]; }
 
-  // Returns the class of an edge, or the merged one, and the tile: the order in which tiles come.
-  Id key_of(const Entry& first, Id tile) const
+  Key key_of(const Entry& first, Id tile) const
   {
-    return (std::max)(m_merged_class, class_of(first)) << s_bits_of_tiles | tile;
+    return {m_is_relaxed ? FT(int((std::max)(m_merged_class, class_of(first)))) : first.cost.get(), tile};
   }
 
-  // Tells the tournament which class the first edge of a tile has now.
+  // Tells the tournament what the first edge of a tile is now.
   void update_key(std::size_t tile)
   {
-    Id key = m_sizes[tile] > 0 ? key_of(m_entries[tile << m_tile_bits], Id(tile)) : s_nowhere;
+    Key key = m_sizes[tile] > 0 ? key_of(first_of(tile), Id(tile)) : Key();
     std::size_t node = m_leaves + tile;
-    while (m_keys[node] != key) {
+    while (!(m_keys[node] == key)) {
       m_keys[node] = key;
       if (node == 1)
         break;
@@ -286,14 +317,14 @@ private:
     }
   }
 
-  int m_tile_bits;
-  Id m_merged_class = 0;        // the classes up to this one are one
-  std::vector<Entry> m_entries; // the heap of each tile at the number of its first edge
-  std::vector<Id> m_places;     // in the heap, by edge
-  std::vector<Id> m_sizes;      // of the heaps, by tile
-  // The tournament: the class of the first edge of a tile, and the tile. The tiles follow each other from
-  // `m_leaves` on, which is a power of two; the winner of nodes 2i and 2i + 1 is at i.
-  std::vector<Id> m_keys;
+  bool m_is_relaxed;
+  std::uint32_t m_merged_class = 0; // the classes up to this one are one
+  std::vector<Entry> m_entries;     // the heap of each tile at the number of its first edge
+  std::vector<Local> m_places;      // in the heap, by edge
+  std::vector<Local> m_sizes;       // of the heaps, by tile
+  // The tournament. The tiles follow each other from `m_leaves` on, which is a power of two; the winner of
+  // nodes 2i and 2i + 1 is at i.
+  std::vector<Key> m_keys;
   std::size_t m_leaves = 1;
 };
 
