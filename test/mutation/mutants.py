@@ -512,7 +512,7 @@ group(
     ("constexpr double most = 5.5;", "constexpr double most = 1e9;", "faces in any order are left in it"),
     ("for (std::size_t i = m_leaves_in_tree; i < m_leaves.size() &&",
      "for (std::size_t i = m_leaves_in_tree + 1; i < m_leaves.size() &&", "the first new leaf not visited"),
-    ("leaf.boxes.set(slot % s_width, internal::Monotone_box::empty());", "leaf.boxes.set(slot % s_width, leaf.boxes[0]);",
+    ("leaf.boxes.set_empty(slot % s_width);", "leaf.boxes.set(slot % s_width, leaf.boxes[0]);",
      "what is removed is still found"),
 )
 group(
@@ -550,6 +550,13 @@ group(
     headers + "spatial/internal/Box_block.h",
     ("spatial_index_test",),
     ("yes(z1[i] >= box.lower[2])", "yes(z1[i] > box.lower[2])", "boxes that touch do not overlap"),
+)
+group(
+    headers + "spatial/internal/Framed_box_block.h",
+    ("spatial_index_test",),
+    ("place(axis, lower - 2)", "place(axis, lower + 1)", "a box is read back smaller than it is"),
+    ("if (put(i, box))\n      return;", "if (put(i, box) || true)\n      return;", "a frame does not grow"),
+    ("yes(z1[i] >= query[2])", "yes(z1[i] > query[2])", "boxes that come to be in the same plane do not overlap"),
 )
 group(
     headers + "spatial/internal/Monotone_box.h",

@@ -5,6 +5,9 @@
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/spatial/Packed_R_tree.h>
+#include <selvedge/spatial/internal/Box_block.h>
+#include <selvedge/spatial/internal/Framed_box_block.h>
+#include <selvedge/spatial/internal/Monotone_box.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -154,6 +157,83 @@ TEST_P(Packed_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Packed_index, testing::Combine(origins, extents));
+
+using selvedge::internal::Box_block;
+using selvedge::internal::Framed_box_block;
+using selvedge::internal::Monotone_box;
+using selvedge::internal::Monotone_box_map;
+
+TEST(Box_block, FindsBoxesThatTouch)
+{
+  Box_block block;
+  block.set(3, {{0, 0, 0}, {1, 1, 1}});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Monotone_box beside{{0, 0, 0}, {1, 1, 1}};
+    beside.lower[axis] = beside.upper[axis] = 1;
+    EXPECT_EQ(block.overlapping(beside), 1u << 3) << axis;
+    beside.lower[axis] = beside.upper[axis] = 0;
+    EXPECT_EQ(block.overlapping(beside), 1u << 3) << axis;
+  }
+}
+
+class Framed_boxes : public testing::TestWithParam<std::tuple<double, double>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Framed_boxes, testing::Combine(origins, extents));
+
+TEST_P(Framed_boxes, AreFoundAndReadBackHardlyLarger)
+{
+  const auto [origin, extent] = GetParam();
+  Random_boxes random(5, origin, extent);
+  Framed_box_block::Boxes boxes; // as they were set
+  Framed_box_block block;
+  std::size_t found = 0, overlapping = 0;
+  for (int step = 0; step < 4000; ++step) {
+    const std::size_t i = random.index(boxes.size());
+    if (step % 400 == 0) { // a few boxes in a small frame, from which they come out
+      boxes.fill(Monotone_box::empty());
+      for (std::size_t k = 0; k < 4; ++k)
+        boxes[k] = Monotone_box_map()(Random_boxes(unsigned(step + 1), origin, 1e-3 * extent).box());
+      block = Framed_box_block(boxes);
+    } else if (step % 5 == 0) {
+      boxes[i] = Monotone_box::empty();
+      block.set_empty(i);
+    } else {
+      boxes[i] = Monotone_box_map()(random.box());
+      block.set(i, boxes[i]);
+    }
+    Monotone_box all = Monotone_box::empty();
+    for (const Monotone_box& box : boxes)
+      all += box;
+    const Monotone_box query = Monotone_box_map()(random.box());
+    const Framed_box_block::Mask mask = block.overlapping(query);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      ASSERT_EQ(block[k].is_empty(), boxes[k].is_empty());
+      if (boxes[k].is_empty()) {
+        ASSERT_EQ(mask >> k & 1, 0u);
+        continue;
+      }
+      ASSERT_TRUE(block[k].contains(boxes[k]));
+      ASSERT_TRUE(block.bounding_box().contains(boxes[k]));
+      for (std::size_t axis = 0; axis < 3 && extent < 1e30; ++axis) {
+        // A frame has room for boxes that have left; and floats have an end.
+        const double most = std::max(0.01 * extent, 2e-6 * std::abs(double(all.lower[axis])));
+        ASSERT_LE(double(boxes[k].lower[axis]) - double(block[k].lower[axis]), most);
+        ASSERT_LE(double(block[k].upper[axis]) - double(boxes[k].upper[axis]), most);
+      }
+      if (boxes[k].overlaps(query)) {
+        ASSERT_EQ(mask >> k & 1, 1u);
+      }
+      found += mask >> k & 1;
+      overlapping += boxes[k].overlaps(query);
+    }
+  }
+  if (origin == 0 && extent == 1) {
+    EXPECT_LT(found, overlapping + overlapping / 10);
+  }
+  EXPECT_GT(overlapping, 10u);
+}
 
 using Corners = Packed_R_tree::Corners;
 

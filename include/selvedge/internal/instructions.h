@@ -60,6 +60,26 @@ std::uint32_t negative(const std::array<std::int32_t, count>& numbers)
   return result;
 }
 
+/// The same for numbers of 16 bits, of which there are a multiple of 16.
+template <std::size_t count>
+std::uint32_t negative(const std::array<std::int16_t, count>& numbers)
+{
+  static_assert(count % 16 == 0 && count <= 32, "");
+  std::uint32_t result = 0;
+#ifdef __SSE2__
+  for (std::size_t i = 0; i < count; i += 16) {
+    const auto eight_from = [&](std::size_t first) {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(&numbers[first]));
+    };
+    result |= std::uint32_t(_mm_movemask_epi8(_mm_packs_epi16(eight_from(i), eight_from(i + 8)))) << i;
+  }
+#else
+  for (std::size_t i = 0; i < count; ++i)
+    result |= std::uint32_t(numbers[i] < 0) << i;
+#endif
+  return result;
+}
+
 /// Masks whose bits i say whether number i is surely negative, or surely positive.
 struct Signs
 {

@@ -8,6 +8,7 @@
 #include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/Index_statistics.h>
 #include <selvedge/spatial/internal/Box_block.h>
+#include <selvedge/spatial/internal/Framed_box_block.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
 #include <selvedge/spatial/internal/Rod_block.h>
 #include <selvedge/spatial/internal/order_along_curve.h>
@@ -51,12 +52,13 @@ namespace selvedge {
 /// nothing of a face but its number and its box. It stores boxes and never computes one again, so a face that
 /// is gone from the mesh is not read.
 ///
-/// **Exactness** Boxes are stored as floats, through a monotone map that can only add overlaps. Rods are
-/// floats with bounds on rounding: they leave out only what is proved apart.
+/// **Exactness** Boxes are stored as floats, and those of faces as numbers of 16 bits in a frame of their
+/// leaf, through monotone maps that can only add overlaps. Rods are floats with bounds on rounding: they
+/// leave out only what is proved apart.
 ///
 /// **Complexity** Building is O(n). A query is logarithmic in n for each face that it finds, when boxes
 /// overlap as those of faces of a surface do. A change is O(log n), and amortised O(1) as a rule. The index
-/// takes about 34 bytes per face, and as many more while it is built; with rods, 64 bytes more.
+/// takes about 24 bytes per face, and as many more while it is built; with rods, 64 bytes more.
 ///
 /// **Reference** Kamel, Faloutsos: On packing R-trees.
 class Packed_R_tree
@@ -128,7 +130,7 @@ public:
   {
     const Slot slot = m_slots[face];
     Leaf& leaf = m_leaves[slot / s_width];
-    leaf.boxes.set(slot % s_width, internal::Monotone_box::empty());
+    leaf.boxes.set_empty(slot % s_width);
     leaf.faces[slot % s_width] = s_none;
     --m_size;
     if (3 * m_size < 2 * m_slot_count)
@@ -170,13 +172,14 @@ public:
 private:
   using Slot = std::uint32_t;
   using Box_block = internal::Box_block;
+  using Framed_box_block = internal::Framed_box_block;
   using Mask = Box_block::Mask;
   static constexpr std::size_t s_width = Box_block::width;
   static constexpr Id s_none = Id(-1);
 
   struct Leaf
   {
-    Box_block boxes;
+    Framed_box_block boxes;
     std::array<Id, s_width> faces;
 
     Leaf() { faces.fill(s_none); }
@@ -206,15 +209,14 @@ private:
   // Closes the gaps between entries, which keep their order.
   void compact()
   {
-    m_size = m_slot_count = 0;
-    for (Leaf& leaf : m_leaves) {
-      const Leaf old = std::exchange(leaf, Leaf()); // entries may go into the same leaf, or into earlier ones
-      for (std::size_t i = 0; i < s_width; ++i)
-        if (old.faces[i] != s_none)
-          put({old.boxes[i], old.faces[i]}, m_slots[old.faces[i]] = m_slot_count++);
-    }
-    m_leaves.resize((m_slot_count + s_width - 1) / s_width);
-    make_nodes();
+    fill_leaves([&](const auto& add) {
+      for (std::size_t number = 0; number < m_leaves.size(); ++number) {
+        const Leaf leaf = m_leaves[number]; // its entries may go into the same leaf, or into earlier ones
+        for (std::size_t i = 0; i < s_width; ++i)
+          if (leaf.faces[i] != s_none)
+            add({leaf.boxes[i], leaf.faces[i]});
+      }
+    });
   }
 
   // Whether the entries came in an order that is about as good as that along a curve: in which no blocks are
@@ -250,7 +252,8 @@ private:
       sum += double(box.upper[axis]) - double(box.lower[axis]);
     return sum;
   }
-  static double extent_of_members(const Box_block& boxes)
+  template <class Block>
+  static double extent_of_members(const Block& boxes)
   {
     double sum = 0;
     for (std::size_t i = 0; i < s_width; ++i)
@@ -275,15 +278,44 @@ private:
   template <class Entry_at>
   void fill(std::size_t size, const Entry_at& entry_at)
   {
-    m_size = m_slot_count = 0;
     m_leaves.clear();
     m_leaves.reserve((size + s_width - 1) / s_width);
-    for (std::size_t i = 0; i < size; ++i) {
-      const Entry entry = entry_at(i);
+    fill_leaves([&](const auto& add) {
+      for (std::size_t i = 0; i < size; ++i)
+        add(entry_at(i));
+    });
+  }
+
+  // Puts entries into the leaves from the first one on, each when it is full, in the order in which
+  // `add_all(add)` calls add(entry).
+  template <class Add_all>
+  void fill_leaves(const Add_all& add_all)
+  {
+    m_slot_count = 0;
+    Leaf leaf;
+    Framed_box_block::Boxes boxes;
+    boxes.fill(internal::Monotone_box::empty());
+    const auto store = [&](std::size_t number) {
+      leaf.boxes = Framed_box_block(boxes);
+      if (number == m_leaves.size())
+        m_leaves.emplace_back();
+      m_leaves[number] = leaf;
+      leaf = Leaf();
+      boxes.fill(internal::Monotone_box::empty());
+    };
+    add_all([&](const Entry& entry) {
       if (entry.face >= m_slots.size())
         m_slots.resize(entry.face + std::size_t(1), s_none);
-      put(entry, m_slots[entry.face] = new_slot());
-    }
+      boxes[m_slot_count % s_width] = entry.box;
+      leaf.faces[m_slot_count % s_width] = entry.face;
+      m_slots[entry.face] = m_slot_count++;
+      if (m_slot_count % s_width == 0)
+        store(m_slot_count / s_width - 1);
+    });
+    if (m_slot_count % s_width != 0)
+      store(m_slot_count / s_width);
+    m_leaves.resize((m_slot_count + s_width - 1) / s_width);
+    m_size = m_slot_count;
     make_nodes();
   }
 
@@ -367,7 +399,8 @@ private:
   };
 
   // The children of a block that the query may meet; on level 0 they are faces.
-  Mask children_near(const Box_block& boxes, std::size_t level, std::size_t block, const Query& query) const
+  template <class Block>
+  Mask children_near(const Block& boxes, std::size_t level, std::size_t block, const Query& query) const
   {
     const Mask mask = boxes.overlapping(query.box);
     return query.beam == nullptr || mask == 0 ? mask : mask & m_rods[level][block].near(*query.beam);
@@ -483,10 +516,12 @@ private:
       m_rods[level].resize(m_levels[level - 1].size());
       const std::size_t children = level == 1 ? m_leaves_in_tree : m_levels[level - 2].size();
       for (std::size_t child = 0; child < children; ++child) {
-        const Box_block& boxes = level == 1 ? m_leaves[child].boxes : m_levels[level - 2][child];
+        const auto is_empty = [&](std::size_t i) {
+          return level == 1 ? m_leaves[child].faces[i] == s_none : m_levels[level - 2][child][i].is_empty();
+        };
         below.clear();
         for (std::size_t i = 0; i < s_width; ++i)
-          if (!boxes[i].is_empty())
+          if (!is_empty(i))
             below.push_back(m_rods[level - 1][child][i]);
         const internal::Rod rod = internal::Rod::around(below);
         m_rod_extent = std::isinf(rod.radius) ? m_rod_extent : (std::max)(m_rod_extent, rod.extent());
