@@ -163,6 +163,7 @@ std::vector<Index_triple> Sewn_mesh::add_faces(const std::vector<Index>& positio
   const Index face_count = Index(own_face_count() + obstacle.triangles.size());
   std::vector<Index_triple> triangles;
   triangles.reserve(face_count);
+  m_is_frozen.reserve(face_count);
   for (Index number = 0; number < face_count; ++number) {
     const Face face(number);
     m_is_frozen.push_back(is_frozen[triangle(face)]);
@@ -180,6 +181,9 @@ std::vector<Index_triple> Sewn_mesh::add_faces(const std::vector<Index>& positio
       m_constraints.uncounted_faces.push_back(face);
     }
   }
+  if (std::none_of(m_is_frozen.begin(), m_is_frozen.end(),
+                   [](char is_frozen_face) { return is_frozen_face; }))
+    m_is_frozen = {};
   return triangles;
 }
 
@@ -194,6 +198,8 @@ void Sewn_mesh::note_vertices(const std::vector<Index>& positions)
 
 void Sewn_mesh::find_misoriented(const Sewing& sewing)
 {
+  if (sewing.misoriented_sides().empty())
+    return;
   m_is_misoriented.assign(soup().points.size(), false);
   for (const Index side : sewing.misoriented_sides()) {
     if (side / 3 >= own_face_count())
@@ -255,10 +261,10 @@ void Sewn_mesh::find_locked(const Sewing& sewing, const std::vector<Index>& posi
       moves_alone(position_of.size(), false);
   for (const Index position : position_of)
     is_locked.push_back(vertices_at[position] > 1);
-  for (Corner corner = 0; corner < 3 * m_is_frozen.size(); ++corner) {
+  for (Corner corner = 0; corner < sewing.side_count(); ++corner) {
     const Face face(corner / 3);
     const Index v = sewing.vertex(corner);
-    is_in_frozen_face[v] |= m_is_frozen[face];
+    is_in_frozen_face[v] |= frozen(face);
     moves_alone[v] |=
         is_in_frozen_face[v] ||
         (has_doubles(face) && !have_plies_one_vertex(face, static_cast<unsigned char>(corner % 3)));
@@ -390,9 +396,10 @@ Hindrance Sewn_mesh::lock_reason(Mesh::Vertex_index v) const
   for (const Halfedge h : mesh().halfedges_around_target(mesh().halfedge(v))) {
     if (mesh().is_border(h) || !is_own(mesh().face(h)))
       continue;
-    if (const char frozen = m_is_frozen[mesh().face(h)]; frozen != 0)
-      reason = (std::min)(reason, frozen == by_wish ? Hindrance::locked : Hindrance::frozen);
-    else if (reason == Hindrance::non_manifold && m_is_misoriented[vertex_of(corner_at(h))])
+    if (const char how = frozen(mesh().face(h)); how != 0)
+      reason = (std::min)(reason, how == by_wish ? Hindrance::locked : Hindrance::frozen);
+    else if (reason == Hindrance::non_manifold && !m_is_misoriented.empty() &&
+             m_is_misoriented[vertex_of(corner_at(h))])
       reason = Hindrance::misoriented;
     else if (!m_is_held_elsewhere.empty() && m_is_held_elsewhere[vertex_of(corner_at(h))])
       return Hindrance::companions;

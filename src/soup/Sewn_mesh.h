@@ -110,6 +110,7 @@ protected:
   void set_held_elsewhere(std::vector<char> vertices) { m_is_held_elsewhere = std::move(vertices); }
 
 private:
+  char frozen(Face face) const { return m_is_frozen.empty() ? char(false) : m_is_frozen[face]; }
   std::vector<Index_triple> add_faces(const std::vector<Index>& positions, const std::vector<char>& is_frozen,
                                       const Triangle_soup& obstacle);
   void note_vertices(const std::vector<Index>& positions);
@@ -123,9 +124,9 @@ private:
                            const std::vector<Index>& vertices_at, const std::vector<Index>& position_of);
   void find_no_strip_vertices(const std::vector<Index>& position_of);
 
-  std::vector<char> m_is_frozen;         // by face: as given, of one of its plies
+  std::vector<char> m_is_frozen;         // by face: as given, of one of its plies; or empty
   std::vector<char> m_is_wished;         // by vertex: locked because the user wants it so; or empty
-  std::vector<char> m_is_misoriented;    // by vertex of the soup: at such a side
+  std::vector<char> m_is_misoriented;    // by vertex of the soup: at such a side; or empty
   std::vector<char> m_is_held_elsewhere; // by vertex of the soup: only another place locks it; or empty
   std::vector<Index> m_misoriented_sides;
   Simplify_constraints<Mesh> m_constraints;
