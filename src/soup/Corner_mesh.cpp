@@ -18,11 +18,11 @@ namespace selvedge {
 
 Corner_mesh::Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                          const std::vector<char>& is_turned, const std::vector<Index>& fronts,
-                         std::vector<Index> triangles)
-    : m_soup(soup), m_triangles(std::move(triangles))
+                         const std::vector<Index>& triangles)
+    : m_soup(soup), m_triangles(triangles)
 {
-  m_corners.reserve(m_triangles.size());
-  for (const Index t : m_triangles) {
+  m_corners.reserve(triangles.size());
+  for (const Index t : triangles) {
     if (t >= soup.triangles.size())
       break; // those of the obstacle come last
     m_corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
@@ -40,9 +40,10 @@ Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& fac
 {
   if (!whole.m_first_ply.empty())
     m_first_ply.assign(1, 0);
+  std::vector<Index> triangles;
   for (const Index number : faces) {
     const Face face(number);
-    m_triangles.push_back(whole.m_triangles[face]);
+    triangles.push_back(whole.m_triangles[face]);
     if (!whole.is_own(face))
       continue;
     m_corners.push_back(whole.m_corners[face]);
@@ -52,6 +53,7 @@ Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& fac
                    whole.m_plies.begin() + whole.m_first_ply[face + 1]);
     m_first_ply.push_back(Index(m_plies.size()));
   }
+  m_triangles = internal::Packed_numbers(triangles);
 }
 
 std::vector<Corner_mesh::Face> Corner_mesh::faces_of_triangles() const

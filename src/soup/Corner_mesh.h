@@ -5,6 +5,7 @@
 #define SELVEDGE_SOUP_CORNER_MESH_H
 
 #include <selvedge/Triangle_soup.h>
+#include <selvedge/internal/Packed_numbers.h>
 
 #include <CGAL/Surface_mesh.h>
 
@@ -171,7 +172,7 @@ protected:
   /// face, those of an obstacle last. The other arguments are those of `Sewn_mesh`.
   Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
               const std::vector<char>& is_turned, const std::vector<Index>& fronts,
-              std::vector<Index> triangles);
+              const std::vector<Index>& triangles);
 
   /// Takes the corners of some faces of another mesh.
   Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& faces);
@@ -205,12 +206,12 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<Index> m_triangles;      // by face, its front
-  std::vector<Index_triple> m_corners; // by face
-  std::vector<Ply> m_plies;            // by face, if it has doubles
-  std::vector<Index> m_first_ply;      // by face, and one more; or empty
-  std::vector<char> m_is_turned;       // by face, or empty
-  std::vector<unsigned char> m_places; // by halfedge that is no border
+  internal::Packed_numbers m_triangles; // by face, its front
+  std::vector<Index_triple> m_corners;  // by face
+  std::vector<Ply> m_plies;             // by face, if it has doubles
+  std::vector<Index> m_first_ply;       // by face, and one more; or empty
+  std::vector<char> m_is_turned;        // by face, or empty
+  std::vector<unsigned char> m_places;  // by halfedge that is no border
   std::size_t m_collapse_count = 0;
   std::shared_ptr<const std::vector<Index>> m_regions; // by triangle of the soup; or null
 };

@@ -81,10 +81,11 @@ void Working_mesh::count_refusals()
   for (const Part_kind& kind : kinds)
     m_refused.emplace_back(kind.count);
   // Labels say of each triangle to which parts it belongs; and of pieces, each vertex does.
-  m_piece_of_vertex.assign(soup().points.size(), 0);
+  std::vector<Index> piece_of_vertex(soup().points.size(), 0);
   for (Index t = 0; t < soup().triangles.size(); ++t)
     for (const Index v : soup().triangles[t])
-      m_piece_of_vertex[v] = kinds.front().of_triangle[t];
+      piece_of_vertex[v] = kinds.front().of_triangle[t];
+  m_piece_of_vertex = internal::Packed_numbers(piece_of_vertex);
 }
 
 void Working_mesh::before_collapse(Halfedge moving, const Border_rule<Mesh>& rule)

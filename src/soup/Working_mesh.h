@@ -17,6 +17,7 @@
 #include <selvedge/Parts.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Surface_mesh_simplification/No_observer.h>
+#include <selvedge/internal/Packed_numbers.h>
 
 #include <array>
 #include <cstddef>
@@ -200,7 +201,7 @@ private:
   // What holds back the three edges of each face; empty until the reduction says so.
   std::vector<std::array<std::optional<Hindrance>, 3>> m_hindrances;
 
-  std::vector<Index> m_piece_of_vertex; // by vertex of the soup; empty until refusals are counted
+  internal::Packed_numbers m_piece_of_vertex; // by vertex of the soup; empty until refusals are counted
   std::vector<std::vector<Refusals>> m_refused;
 };
 

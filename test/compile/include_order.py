@@ -15,7 +15,7 @@ import sys
 
 LEVELS = [
     ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/Soup_collapse.h", "include/selvedge/internal/base64.h", "include/selvedge/internal/inflated.h", "include/selvedge/internal/Stopwatch.h", "include/selvedge/internal/instructions.h",
-                "include/selvedge/internal/Vector_of_doubles.h", "include/selvedge/internal/nearest_on_triangle.h", "include/selvedge/internal/saturated_float.h", "include/selvedge/internal/exact_predicates.h"]),
+                "include/selvedge/internal/Vector_of_doubles.h", "include/selvedge/internal/nearest_on_triangle.h", "include/selvedge/internal/saturated_float.h", "include/selvedge/internal/exact_predicates.h", "include/selvedge/internal/Packed_numbers.h"]),
     ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
     ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/Simplify_options.h",
                   "include/selvedge/Simplify_report.h"]),

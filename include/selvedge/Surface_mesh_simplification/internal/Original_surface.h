@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 
+#include <selvedge/internal/Packed_numbers.h>
 #include <selvedge/internal/nearest_on_triangle.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
@@ -43,14 +44,26 @@ public:
   using Number = std::uint32_t;
   using Point = Kernel::Point_3;
 
-  /// Makes room for triangles to come.
-  void reserve(std::size_t triangles) { m_triangles.reserve(triangles); }
+  /// Makes room for triangles to come, whose corners are among the first `points` points. Call it before any
+  /// is added.
+  void reserve(std::size_t triangles, std::size_t points)
+  {
+    m_corners = Packed_numbers(points);
+    m_corners.reserve(3 * triangles);
+  }
 
   /// Adds a triangle, whose corners are among the points with these numbers. Call it before any question.
-  void add(const std::array<Number, 3>& triangle) { m_triangles.push_back(triangle); }
+  void add(const std::array<Number, 3>& triangle)
+  {
+    for (const Number corner : triangle)
+      m_corners.push_back(corner);
+  }
 
-  std::size_t number_of_triangles() const { return m_triangles.size(); }
-  const std::array<Number, 3>& triangle(std::size_t number) const { return m_triangles[number]; }
+  std::size_t number_of_triangles() const { return m_corners.size() / 3; }
+  std::array<Number, 3> triangle(std::size_t number) const
+  {
+    return {m_corners[3 * number], m_corners[3 * number + 1], m_corners[3 * number + 2]};
+  }
 
   /// Whether the index has been made, which answers sooner than several triangles.
   bool has_index() const { return m_index.has_value(); }
@@ -89,11 +102,11 @@ public:
   /// was asked last, as neighbours have in most meshes.
   std::optional<Point> near_point(const Point& point, double squared_distance) const
   {
-    if (m_neighbours.empty() && m_compared > s_boxes_per_side * m_triangles.size())
+    if (m_neighbours.empty() && m_compared > s_boxes_per_side * number_of_triangles())
       find_neighbours();
     const double radius = (1 + 1e-9) * std::sqrt(squared_distance);
     if (!m_index) {
-      if (m_compared < s_boxes_per_index * m_triangles.size())
+      if (m_compared < s_boxes_per_index * number_of_triangles())
         return found_by_scan(point, squared_distance, radius);
       make_index();
     }
@@ -123,7 +136,7 @@ private:
     m_last = triangle;
     m_compared += s_boxes_per_triangle;
     const auto vector = [](const Point& p) { return Vector_of_doubles{p.x(), p.y(), p.z()}; };
-    const auto& [a, b, c] = m_triangles[triangle];
+    const auto& [a, b, c] = this->triangle(triangle);
     return nearest_on_triangle({vector(m_points[a]), vector(m_points[b]), vector(m_points[c])},
                                vector(point));
   }
@@ -152,7 +165,7 @@ private:
         found = near_point(point, squared_distance, triangle);
       return found.has_value();
     };
-    const Number start = m_last, size = Number(m_triangles.size());
+    const Number start = m_last, size = Number(number_of_triangles());
     for (Number i = 0; i <= start || i < size - start; ++i)
       if ((i <= start && is_found(start - i)) || (i > 0 && i < size - start && is_found(start + i)))
         break;
@@ -161,13 +174,13 @@ private:
 
   Kernel::Triangle_3 triangle_at(Number number) const
   {
-    const auto& [a, b, c] = m_triangles[number];
+    const auto& [a, b, c] = triangle(number);
     return {m_points[a], m_points[b], m_points[c]};
   }
 
   Number triangle_of(Number part) const
   {
-    return part < m_triangles.size() ? part : m_triangle_of_part[part - m_triangles.size()];
+    return part < number_of_triangles() ? part : m_triangle_of_part[part - number_of_triangles()];
   }
 
   void make_index() const
@@ -175,7 +188,7 @@ private:
     // Parts are numbered as the triangles are, and those of slivers after them.
     std::vector<Number> parts;
     std::vector<CGAL::Bbox_3> boxes; // of parts of slivers
-    const Number triangles = Number(m_triangles.size());
+    const Number triangles = Number(number_of_triangles());
     parts.reserve(triangles);
     for (Number i = 0; i < triangles; ++i) {
       const std::size_t first = boxes.size();
@@ -195,7 +208,7 @@ private:
 
   void find_neighbours() const
   {
-    m_neighbours.assign(m_triangles.size(), {s_none, s_none, s_none});
+    m_neighbours.assign(number_of_triangles(), {s_none, s_none, s_none});
     // The sides by their lower corner: the higher one, the triangle, and the corner opposite.
     struct Side
     {
@@ -204,12 +217,13 @@ private:
     };
     std::vector<Number> first(m_points.size() + 1, 0);
     const auto for_each_side = [&](const auto& function) {
-      for (Number triangle = 0; triangle < m_triangles.size(); ++triangle)
+      for (Number number = 0; number < number_of_triangles(); ++number) {
+        const std::array<Number, 3> corners = triangle(number);
         for (std::size_t i = 0; i < 3; ++i) {
-          const auto [lower, higher] =
-              std::minmax(m_triangles[triangle][(i + 1) % 3], m_triangles[triangle][(i + 2) % 3]);
-          function(lower, Side{higher, triangle, std::uint8_t(i)});
+          const auto [lower, higher] = std::minmax(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+          function(lower, Side{higher, number, std::uint8_t(i)});
         }
+      }
     };
     for_each_side([&](Number lower, const Side&) { ++first[lower + 1]; });
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -270,7 +284,7 @@ private:
   }
 
   const std::vector<Point>& m_points;
-  std::vector<std::array<Number, 3>> m_triangles;
+  Packed_numbers m_corners;                       // three of each triangle
   mutable std::optional<Packed_R_tree> m_index;   // of parts of triangles
   mutable std::vector<Number> m_triangle_of_part; // those of slivers
   // Of each triangle, beyond the side opposite to each corner; empty until they are of use.

@@ -8,6 +8,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Original_surface.h>
 #include <selvedge/Surface_mesh_simplification/internal/Triangle_grid.h>
 #include <selvedge/Surface_mesh_simplification/internal/Triangle_union.h>
+#include <selvedge/internal/Packed_numbers.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
 #include <CGAL/Dynamic_property_map.h>
@@ -95,8 +96,9 @@ public:
     if (std::isfinite(max_error))
       state.squared_near = s_near * s_near * state.max_error * state.max_error;
     state.is_tracking = true;
+    state.original.reserve(num_faces(state.mesh), num_vertices(state.mesh));
+    state.triangles = Packed_numbers(num_faces(state.mesh));
     state.reserve(num_vertices(state.mesh));
-    state.original.reserve(num_faces(state.mesh));
     const auto number_of = get(CGAL::dynamic_vertex_property_t<Number>(), state.mesh);
     for (const Vertex v : vertices(state.mesh))
       put(number_of, v, s_none);
@@ -291,7 +293,7 @@ private:
     Original_surface original{points};
     // The points of a face are a list: the first one of the face, and for each point the next one.
     std::vector<Number> next;
-    std::vector<Number> triangles; // of the original, of each point one that has it
+    Packed_numbers triangles; // of the original, of each point one that has it
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Number>>::const_type
         first_of_face;
 
@@ -333,7 +335,7 @@ private:
   {
     State& state = *m_state;
     const auto corners = [&](std::size_t i) {
-      const auto& [a, b, c] = state.original.triangle(i);
+      const auto [a, b, c] = state.original.triangle(i);
       return Triangle_grid::Triangle{state.points[a], state.points[b], state.points[c]};
     };
     const std::size_t triangles = state.original.number_of_triangles();
