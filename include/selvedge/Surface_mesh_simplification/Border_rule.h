@@ -312,7 +312,7 @@ private:
           max_squared_height(options.max_corner_height * options.max_corner_height),
           max_squared_drift(options.max_drift * options.max_drift),
           freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
-          marks(get(CGAL::dynamic_halfedge_property_t<bool>(), mesh_))
+          marks(get(CGAL::dynamic_halfedge_property_t<unsigned char>(), mesh_))
     {
       for (const double turn : {options.max_border_turn, options.max_seam_turn})
         if (!(turn >= 0 && turn <= 180))
@@ -339,7 +339,7 @@ private:
     double max_squared_height;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_halfedge_property_t<bool>>::const_type
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_halfedge_property_t<unsigned char>>::const_type
         marks; // of an inner edge that is a line, at the target of the halfedge
     bool may_have_spokes = false;
     boost::unordered_map<Vertex, double> squared_drift_of;  // of vertices with a limit of their own

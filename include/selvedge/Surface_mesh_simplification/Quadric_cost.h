@@ -72,7 +72,7 @@ struct No_line_map
 /// of the mesh, so that a mesh far from the origin loses no precision. Normals of faces and quadrics are kept
 /// in single precision: relative to the vertex, through which the planes of its faces pass, or to a place
 /// near it, what is rounded changes a cost by far less than the weight of the vertices does. A vertex takes
-/// 88 bytes, 32 more when a place is asked for, and a face 12.
+/// 92 bytes, 32 more when a place is asked for, and a face 12.
 ///
 /// **Complexity** Linear in the size of the mesh to initialise; constant for a cost or an error; the number
 /// of faces at the neighbours of the merged vertex for an update.
@@ -124,6 +124,7 @@ class Quadric_cost
   {
     internal::Float_symmetric_matrix matrix;
     Float_vector linear{0, 0, 0};
+    bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
 
     double operator()(const Vector& motion, double unit) const
     {
@@ -226,7 +227,7 @@ public:
     for (const Vertex v : vertices(mesh)) {
       poll();
       Growth growth;
-      put(m_state->has_lines, v, is_at_line(v, mesh));
+      growth.has_lines = is_at_line(v, mesh);
       compute_growth(v, mesh, points, 0, growth);
       put(m_state->growths, v, growth);
       Accumulated accumulated;
@@ -411,8 +412,8 @@ public:
       sum += merged.quadric(unit);
       merged.set(sum, unit);
     });
-    if (get(m_state->has_lines, gone))
-      put(m_state->has_lines, kept, true);
+    change(m_state->growths, kept,
+           [&](Growth& merged) { merged.has_lines |= get(m_state->growths, gone).has_lines; });
     if (m_state->weights)
       put(*m_state->weights, kept, (std::max)(get(*m_state->weights, kept), get(*m_state->weights, gone)));
   }
@@ -438,7 +439,6 @@ private:
         : options(options_), edge_is_line(edge_is_line_),
           planes(get(CGAL::dynamic_face_property_t<Face_plane>(), mesh)),
           growths(get(CGAL::dynamic_vertex_property_t<Growth>(), mesh)),
-          has_lines(get(CGAL::dynamic_vertex_property_t<bool>(), mesh)),
           accumulated(get(CGAL::dynamic_vertex_property_t<Accumulated>(), mesh))
     {
     }
@@ -454,7 +454,6 @@ private:
     EdgeIsLineMap edge_is_line;
     Plane_map planes;
     Vertex_map<Growth> growths; // which every cost asks for, apart from the rest
-    Vertex_map<bool> has_lines; // whether a border or another line meets the vertex, or may have met it
     Vertex_map<Accumulated> accumulated;
     std::optional<Vertex_map<Enclosure>> enclosures; // none until a place is asked for
     std::optional<Vertex_map<double>> weights;       // in their unit; none when all are 1
@@ -655,9 +654,8 @@ private:
     const Halfedge first = halfedge(v, mesh);
     if (memory < 1 && first != Graph_traits::null_halfedge()) {
       Matrix of_lines;
-      const bool has_lines = get(state.has_lines, v);
-      if (has_lines || !add_planes_around(first, mesh, matrix))
-        add_planes_and_lines_around(first, has_lines, mesh, points, matrix, of_lines);
+      if (growth.has_lines || !add_planes_around(first, mesh, matrix))
+        add_planes_and_lines_around(first, growth.has_lines, mesh, points, matrix, of_lines);
       matrix.add_identity(state.options.stabiliser * matrix.trace()); // which is the weight of the planes
       matrix += of_lines;
       matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
