@@ -168,7 +168,7 @@ public:
         m_visitor(visitor), m_is_geometry_tested(is_geometry_tested),
         m_expected_collapses(expected_collapses), m_records(num_edges(mesh)),
         m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
-        m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<bool>(), mesh))
+        m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
   }
 
@@ -564,8 +564,10 @@ private:
   std::vector<Edge_record> m_records; // by edge
   Queue m_queue;
   Waiting_edges<TriangleMesh> m_waiting;
-  // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<bool>>::type m_has_stale_edges;
+  // Whether an edge was refused at either end of it and the edges at this vertex have not been refreshed
+  // since. (A property of bool does not compile on meshes of OpenMesh.)
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
+      m_has_stale_edges;
   Size m_initial_edges = 0, m_edges = 0;
   Topology_test<TriangleMesh> m_topology;
 };
