@@ -6,6 +6,7 @@
 #include "judge_result.h"
 #include "same_bits.h"
 
+#include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
 #include "soup/selection.h"
 #include "support/Temporary_folder.h"
@@ -111,6 +112,17 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
   return result;
 }
 
+// Whether the reader has joined vertices of the scene, if there is one.
+bool are_vertices_joined(const Triangle_soup& soup)
+{
+  if (!soup.scene)
+    return false;
+  std::size_t vertices = 0;
+  for (const Gltf_scene::Instance& instance : soup.scene->instances)
+    vertices += soup.scene->blocks[instance.block].size;
+  return soup.points.size() < vertices;
+}
+
 } // namespace
 
 Verdict judge_replay(const World& world, const World_run& run)
@@ -203,7 +215,7 @@ Verdict judge_progressive_file(const World_run& run)
   // Tangents turn with normals. The reader leaves them to the scene where it joins vertices that differ in
   // them, and which it joins, and whose tangents stay, depends on their order where normals are nearly equal.
   const bool with_tangents = with_normals && tangents_of(*run.last_level) && tangents_of(run.read_back) &&
-                             run.last_level->points.size() == run.read_back.points.size();
+                             !are_vertices_joined(*run.last_level) && !are_vertices_joined(run.read_back);
   if (sorted_triangles(*run.last_level, with_normals, with_tangents) ==
       sorted_triangles(run.read_back, with_normals, with_tangents))
     return std::nullopt;
