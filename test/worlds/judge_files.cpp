@@ -215,6 +215,7 @@ Verdict judge_progressive_file(const World_run& run)
   // Tangents turn with normals. The reader leaves them to the scene where it joins vertices that differ in
   // them, and which it joins, and whose tangents stay, depends on their order where normals are nearly equal.
   const bool with_tangents = with_normals && tangents_of(*run.last_level) && tangents_of(run.read_back) &&
+                             run.last_level->points.size() == run.read_back.points.size() &&
                              !are_vertices_joined(*run.last_level) && !are_vertices_joined(run.read_back);
   if (sorted_triangles(*run.last_level, with_normals, with_tangents) ==
       sorted_triangles(run.read_back, with_normals, with_tangents))
