@@ -14,9 +14,6 @@
 namespace selvedge {
 namespace {
 
-// As that of a texture (fit_texture.cpp).
-constexpr double s_inertia_of_attributes = 0.02;
-
 class Attribute_fit
 {
 public:
@@ -26,7 +23,7 @@ public:
   {
     for (Index i = 0; i < m_result.triangles.size(); ++i)
       for (const Index v : m_result.triangles[i])
-        m_inertia[v] += s_inertia_of_attributes * m_surface.area(i) / 3;
+        m_inertia[v] += surface_fit::inertia_at_new_places * m_surface.area(i) / 3;
     for (const Vertex_values::Component& component : m_components) {
       std::vector<double>& of_original = m_of_original.emplace_back();
       of_original.reserve(m_original.points.size());

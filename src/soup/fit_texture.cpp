@@ -15,10 +15,6 @@ namespace {
 
 using Uv = std::array<double, 2>;
 
-// The weight of the coordinates as they are, relative to that of the samples around. It decides where there
-// are few samples.
-constexpr double s_inertia_of_texture = 0.02;
-
 class Texture_fit
 {
 public:
@@ -33,7 +29,7 @@ public:
     for (Index i = 0; i < result.triangles.size(); ++i) {
       if (!result.uvs.has(i))
         continue;
-      const double inertia = s_inertia_of_texture * surface.area(i) / 3;
+      const double inertia = surface_fit::inertia_at_new_places * surface.area(i) / 3;
       for (std::size_t k = 0; k < 3; ++k) {
         const Index v = result.triangles[i][k], uv = result.uvs.of_triangle[i][k];
         m_numbers[i][k] = is_free[v] ? v : Index(result.points.size() + uv);

@@ -23,6 +23,10 @@
 
 namespace selvedge::surface_fit {
 
+/// The weight of texture coordinates and attributes at new places as they are, relative to that of the
+/// samples around. It decides where there are few samples.
+constexpr double inertia_at_new_places = 0.02;
+
 using Vector = internal::Vector_of_doubles;
 using Corners = Triangle_finder::Corners;
 
