@@ -128,9 +128,10 @@ void expect_never_to_miss_a_box(const MakeIndex& make_index, double origin, doub
   }
 }
 
-// Far from the origin and huge, where float has next to no digits left, and tiny.
+// Far from the origin and huge, where float has next to no digits left, tiny, and about as large as floats
+// are.
 const auto origins = testing::Values(0.0, 1e7, -1e30);
-const auto extents = testing::Values(1.0, 1e-9, 1e300);
+const auto extents = testing::Values(1.0, 1e-9, 6e38, 1e300);
 
 class Clustered_index : public testing::TestWithParam<std::tuple<int, double, double>>
 {

@@ -21,8 +21,8 @@ namespace internal {
 /// Sixteen boxes in about half the room of a `Box_block`: their bounds are whole numbers in a *frame*, which
 /// is a cube around all of them that leaves them room to grow.
 ///
-/// The bounds of boxes and of a query become numbers through one map x ↦ ⌊(x − origin) × scale⌋ per axis,
-/// which ends at the sides of the frame. As in a `Monotone_box`, this can add overlaps, but never lose one.
+/// The bounds of boxes and of a query become numbers through one map x ↦ ⌊x × scale − origin⌋ per axis, which
+/// ends at the sides of the frame. As in a `Monotone_box`, this can add overlaps, but never lose one.
 class Framed_box_block
 {
 public:
@@ -79,7 +79,7 @@ public:
     const double step = 1 / double(m_scale);
     const auto place = [&](std::size_t axis, int number) {
       constexpr double largest = s_largest;
-      return float((std::min)((std::max)(m_origin[axis] + number * step, -largest), largest));
+      return float((std::min)((std::max)((double(m_origin[axis]) + number) * step, -largest), largest));
     };
     Monotone_box box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -129,20 +129,21 @@ private:
       const double lower = all.lower[axis], upper = all.upper[axis];
       extent = (std::max)({extent, upper - lower, 0x1p-10 * std::fabs(lower), 0x1p-10 * std::fabs(upper)});
     }
-    m_scale = float(std::ldexp(1, 11 - std::ilogb(extent)));
+    const double scale = std::ldexp(1, 11 - std::ilogb(extent));
+    m_scale = float(scale);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      m_origin[axis] = m_origin[3 + axis] =
-          float((std::max)(all.lower[axis] - 3.5 * extent, -double(s_largest)));
+      m_origin[axis] = m_origin[3 + axis] = float((all.lower[axis] - 3.5 * extent) * scale);
   }
 
-  // What is no number, as 0 × ∞, becomes 0.
+  // Places times the scale are exact, so that only places beyond the frame become infinite. What is no
+  // number, as 0 × ∞, becomes 0.
   Bounds numbers(const Monotone_box& box) const
   {
     const std::array<float, 8> places{
         box.lower[0], box.lower[1], box.lower[2], box.upper[0], box.upper[1], box.upper[2], 0, 0};
     Bounds result;
     for (std::size_t i = 0; i < result.size(); ++i) {
-      const float scaled = (places[i] - m_origin[i]) * m_scale;
+      const float scaled = places[i] * m_scale - m_origin[i];
       const float positive = scaled > 0 ? scaled : 0;
       result[i] = Number(int(positive < s_last ? positive : s_last));
     }
@@ -164,7 +165,7 @@ private:
   }
 
   std::array<Row, 6> m_bounds;     // lower x, y, z, upper x, y, z
-  std::array<float, 8> m_origin{}; // of these bounds
+  std::array<float, 8> m_origin{}; // of these bounds, in steps
   float m_scale = 0;
 };
 
