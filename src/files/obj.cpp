@@ -307,6 +307,14 @@ void check_text(const std::string& text, const std::string& kind)
                          " cannot stand in an OBJ file; rename the " + kind);
 }
 
+// A line can leave out the alpha of a colour, and no other part: one number alone is read as a weight.
+bool has_colour(const std::vector<Attribute_component>& colours, std::size_t i)
+{
+  return !colours.empty() &&
+         std::none_of(colours.begin(), colours.begin() + 3,
+                      [i](const Attribute_component& colour) { return std::isnan(colour.real(i)); });
+}
+
 void write_points(Byte_writer& out, const Triangle_soup& soup)
 {
   const std::vector<Attribute_component> colours = find_colours(soup.vertex_attributes);
@@ -314,7 +322,7 @@ void write_points(Byte_writer& out, const Triangle_soup& soup)
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     const Point_3& p = soup.points[i];
     out << "v " << p.x() << ' ' << p.y() << ' ' << p.z();
-    if (!colours.empty() && !std::isnan(colours[0].real(i))) {
+    if (has_colour(colours, i)) {
       for (const Attribute_component& colour : colours)
         if (const double value = colour.real(i); !std::isnan(value))
           out << ' ' << value;
@@ -399,14 +407,15 @@ Mesh_file read_obj(std::string_view contents, const std::string& name)
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute)
 {
   const std::vector<Attribute_component> colours = find_colours(soup.vertex_attributes);
-  if (std::any_of(colours.begin(), colours.end(),
-                  [&](const Attribute_component& column) { return column.attribute == &attribute; }))
-    return true;
-  const std::optional<Attribute_component> weight = find_column(soup.vertex_attributes, "w");
-  if (!weight || weight->attribute != &attribute)
+  const auto has = [&](const Attribute_component& column) { return column.attribute == &attribute; };
+  const auto colour = std::find_if(colours.begin(), colours.end(), has);
+  const bool is_colour = colour != colours.end();
+  const std::optional<Attribute_component> column =
+      is_colour ? *colour : find_column(soup.vertex_attributes, "w");
+  if (!column || !has(*column))
     return false;
-  for (std::size_t i = 0; i < soup.points.size() && !colours.empty(); ++i)
-    if (!std::isnan(weight->real(i)) && !std::isnan(colours[0].real(i)))
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    if (!std::isnan(column->real(i)) && has_colour(colours, i) != is_colour)
       return false;
   return true;
 }

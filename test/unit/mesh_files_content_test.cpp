@@ -86,6 +86,29 @@ TEST(ObjTextureCoordinates, OfNoFaceAreLikeNoOthers)
   EXPECT_EQ(std::count(uvs.values.begin(), uvs.values.end(), uvs.values[*uvs.missing]), 1);
 }
 
+// One number behind a position is a weight, so that no part of a colour may stand there alone.
+TEST(ObjColours, AreWrittenWhereAVertexHasAllOfThem)
+{
+  const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nproperty float red\nproperty float green\nproperty float blue\n"
+                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const test::Temporary_folder folder;
+  const std::filesystem::path path = folder.path() / "mesh.obj";
+  const auto with_colours = [&](const std::string& second) {
+    return read_mesh(text + "0 0 0 0.25 0.5 1\n1 0 0 " + second + "\n0 1 0 nan nan nan\n3 0 1 2\n",
+                     Mesh_format::ply, "text")
+        .soup;
+  };
+  for (const char* const second : {"0.5 0.75 nan", "0.5 nan nan", "0.5 nan 1", "nan 0.5 1"}) {
+    const Triangle_soup soup = with_colours(second);
+    EXPECT_FALSE(not_carried(soup, Mesh_format::obj).empty()) << second;
+    write_mesh(path, soup);
+    const Triangle_soup again = read_mesh(path).soup;
+    EXPECT_EQ(again.vertex_attributes.size(), 3u) << second;
+    EXPECT_TRUE(not_carried(again, Mesh_format::obj).empty()) << second;
+  }
+}
+
 TEST(ObjNormals, FollowTheCorners)
 {
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvn 0 0.1 1\nf 1//1 2//-1 3//-2\n");
