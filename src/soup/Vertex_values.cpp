@@ -44,6 +44,23 @@ Number nearest_number(double value)
   }
 }
 
+// A weighted mean of numbers. Rounding does not take it out of their range, so that it is their number where
+// they are all the same.
+class Weighted_mean
+{
+public:
+  void add(double weight, double number)
+  {
+    m_sum += weight * number;
+    m_low = std::min(m_low, number);
+    m_high = std::max(m_high, number);
+  }
+  double value() const { return std::max(std::min(m_sum, m_high), m_low); } // NaN where the sum is
+
+private:
+  double m_sum = 0, m_low = std::numeric_limits<double>::infinity(), m_high = -m_low;
+};
+
 } // namespace
 
 Vertex_values::Vertex_values(const Triangle_soup& soup)
@@ -293,9 +310,11 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
         return number(*column, scene_row(share.corner).number, i);
       return m_soup.uvs.values[m_soup.uvs.of_triangle[share.corner / 3][share.corner % 3]][i];
     };
+    Weighted_mean mean;
     for (const Share& share : shares)
       if (share.weight != 0)
-        result[i] += share.weight * at(share);
+        mean.add(share.weight, at(share));
+    result[i] = mean.value();
     if (column) {
       result[i] = coordinate(*column, stored(*column, std::isfinite(result[i]) ? result[i] : at(own), i), i);
     } else {
@@ -327,14 +346,17 @@ Vertex_values::Stored_uv Vertex_values::stored_uv(Index corner, const std::array
 Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& own) const
 {
   const Numbers numbers_of_own = numbers_of(own);
-  Numbers result(numbers_of_own.size());
+  std::vector<Weighted_mean> means(numbers_of_own.size());
   for (const Share& share : shares) {
     if (share.weight == 0)
       continue;
     const Numbers numbers = numbers_of(share);
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] += share.weight * numbers[i];
+    for (std::size_t i = 0; i < means.size(); ++i)
+      means[i].add(share.weight, numbers[i]);
   }
+  Numbers result;
+  for (const Weighted_mean& mean : means)
+    result.push_back(mean.value());
   if (!m_soup.normals.empty()) {
     double* const normal = result.data() + m_first_of_normal;
     const double length = std::hypot(normal[0], normal[1], normal[2]);

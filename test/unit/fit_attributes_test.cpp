@@ -266,6 +266,25 @@ TEST(FitAttributes, DoesNotAskOtherLayers)
   }
 }
 
+// Rounding takes no mean out of the range of its numbers, so that one number everywhere stays that number.
+TEST(FitAttributes, KeepsWhatIsTheSameEverywhere)
+{
+  Triangle_soup soup = sheet_to_paint(48);
+  const auto label = [](const Point_3&) { return 2.1; };
+  soup.vertex_attributes = {painted<double>(soup, "label", Attribute::Type::float64, false, label)};
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    soup.uvs.values.push_back({0.1, 0.7});
+  soup.uvs.of_triangle = soup.triangles;
+  for (const bool are_fitted : {false, true}) {
+    const Simplified_soup result = reduced_painted(soup, are_fitted);
+    EXPECT_GT(result.placed_vertices, 50u);
+    for (Index v = 0; v < result.soup.points.size(); ++v)
+      EXPECT_EQ(painted_number<double>(result.soup.vertex_attributes[0], v), 2.1);
+    for (const std::array<double, 2>& uv : result.soup.uvs.values)
+      EXPECT_EQ(uv, (std::array<double, 2>{0.1, 0.7}));
+  }
+}
+
 // What integers stand for nothing between them, or are told by their names to
 // do so.
 TEST(FitAttributes, LeavesNumbersThatNameSomething)
