@@ -258,11 +258,24 @@ private:
       numbers.push_back(nodes().size());
       nodes()[node.node]["children"].push_back(nodes().size());
       Json child = instance;
-      if (const Json name = member(nodes()[node.node], "name"); name.is_string())
-        child["name"] = name; // by which parts are named
+      name_like(node.node, *m_levels.front().meshes[mesh], child);
       nodes().push_back(std::move(child));
     }
     animate_weights(node.node, numbers);
+  }
+
+  // Gives a new node that shows a mesh in place of another one a name by which readers call its parts as
+  // before: that of the node, of the mesh, or what stands for a node without a name.
+  void name_like(std::size_t n, std::size_t mesh, Json& child)
+  {
+    const auto has_name = [](const Json& element) {
+      const Json name = member(element, "name");
+      return name.is_string() && name != "";
+    };
+    if (has_name(nodes()[n]))
+      child["name"] = nodes()[n]["name"];
+    else if (!has_name(list("meshes")[mesh]))
+      child["name"] = "node " + std::to_string(n);
   }
 
   // No channel may animate the weights of a node without a mesh.
@@ -336,8 +349,7 @@ private:
     const std::size_t number = nodes().size();
     Json child = Json::object();
     Json& node = nodes()[n];
-    if (node.contains("name"))
-      child["name"] = node["name"];
+    name_like(n, node["mesh"].get<std::size_t>(), child);
     for (const char* key : {"mesh", "skin", "weights"})
       if (node.contains(key))
         child[key] = std::move(node[key]);

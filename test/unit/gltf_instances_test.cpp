@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace selvedge::test {
@@ -178,6 +179,8 @@ TEST(Gltf, InstancesThatDifferInOneTriangleAreTwoMeshes)
     return points;
   };
   EXPECT_TRUE(points_of(again) == points_of(soup));
+  EXPECT_EQ(std::set<std::string>(again.groups.names.begin(), again.groups.names.end()),
+            std::set<std::string>(soup.groups.names.begin(), soup.groups.names.end()));
 }
 
 } // namespace

@@ -261,6 +261,33 @@ TEST(Gltf_levels, StandBelowNodesThatDoMoreThanShowAMesh)
   }
 }
 
+// A reader calls the parts of a node without a name by its number, which is another one for a child.
+TEST(Gltf_levels, HaveTheNamesOfNodesWithoutAny)
+{
+  const Temporary_folder folder;
+  for (const bool have_meshes_names : {false, true}) {
+    Document document = everything();
+    Json& nodes = document.json["nodes"];
+    nodes[2]["children"] = {7};
+    nodes.push_back(Json::object());
+    for (Json& node : nodes)
+      node.erase("name");
+    for (Json& mesh : document.json["meshes"]) {
+      mesh.erase("name");
+      if (have_meshes_names)
+        mesh["name"] = "cloth";
+    }
+    write_bytes(folder / "in.glb", to_glb(document));
+    const Triangle_soup soup = read_mesh(folder / "in.glb").soup;
+    write_levels_of_detail(folder / "levels.glb", levels_of(soup, {0.7, 0.4}));
+    const auto names = [](const Triangle_soup& of) {
+      return std::set<std::string>(of.groups.names.begin(), of.groups.names.end());
+    };
+    for (const std::size_t level : {0, 1})
+      EXPECT_EQ(names(read_level(folder / "levels.glb", level).soup), names(soup)) << level;
+  }
+}
+
 TEST(Gltf_levels, StandBesideThoseOfMaterials)
 {
   Document before = everything();
