@@ -26,8 +26,8 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split or joined (**Normals**, **Poles**), and glTF where they are compressed as in the file,
-///    which may change their order and that of the triangles.
+///    vertices are split or joined (**Normals**, **Poles**), and glTF where they are compressed as in the
+///    file, which may change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
 ///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.
@@ -98,6 +98,9 @@ namespace selvedge {
 /// become one, and bytes that nothing can refer to go, as do accessors and buffer views at the end of their
 /// lists. Primitives of points or lines, and meshes outside the scene, stay as they are. Those without a
 /// triangle left are removed.
+///
+/// Colours of a mesh from another format are written to glTF from 0 to 1, as it has them: all are divided by
+/// 255 where the largest is more than 2 and at most 255, and none is negative; others are cut off at 0 and 1.
 ///
 /// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face has
 /// several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name the

@@ -174,6 +174,25 @@ private:
                                               : int(type_float32);
   }
 
+  // Returns the largest number of a colour: 255 where numbers are from 0 to 255, and some well beyond 1.
+  double largest_of_colours() const
+  {
+    double least = 0, largest = 0;
+    for (const Attribute_component& colour : m_colours)
+      for (std::size_t i = 0; i < m_soup.points.size(); ++i)
+        if (const double number = colour.real(i); std::isfinite(number)) {
+          least = std::min(least, number);
+          largest = std::max(largest, number);
+        }
+    return least >= 0 && largest > 2 && largest <= 255 ? 255 : 1;
+  }
+
+  // Colours in glTF are from 0 to 1. Vertices without a colour are white, like a mesh without colours.
+  float fraction_of_colour(double number) const
+  {
+    return std::isfinite(number) ? float(std::clamp(number / m_largest_of_colours, 0., 1.)) : 1;
+  }
+
   void add(const Vertex& v)
   {
     const Point_3& point = m_soup.points[v.vertex];
@@ -195,9 +214,7 @@ private:
       std::apply(put, m_uvs.rows[v.uv]);
     for (const Attribute_component& colour : m_colours)
       if (next->component_type == type_float32)
-        // Vertices without a colour are white, like a mesh without colours.
-        append_little_endian(
-            next->rows, static_cast<float>(std::isfinite(colour.real(v.vertex)) ? colour.real(v.vertex) : 1));
+        append_little_endian(next->rows, fraction_of_colour(colour.real(v.vertex)));
       else
         colour.with(v.vertex, [&](auto number) {
           if constexpr (sizeof number <= 2)
@@ -342,6 +359,7 @@ private:
   Triangle_soup m_result;
   std::vector<Kind> m_kinds; // of instances, in order
   std::vector<Attribute_component> m_colours;
+  double m_largest_of_colours = largest_of_colours();
   std::vector<std::vector<std::array<float, 3>>> m_displacements; // of vertices, by target
   std::vector<std::string> m_target_names;
   std::vector<std::vector<std::size_t>> m_keys; // targets of each pose

@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -126,6 +128,31 @@ TEST(Gltf, NewFileSplitsVerticesOnlyWhereCornersDiffer)
   write_mesh(folder / "a.glb",
              read_mesh(obj + "f 1/1 2/2 3/3\nf 3/7 2/5 4/6\n", Mesh_format::obj, "test").soup);
   EXPECT_EQ(read_mesh(folder / "a.glb").soup.points.size(), 5u);
+}
+
+// Some programs count colours from 0 to 255 in OBJ, and as whole numbers of 32 bits in PLY.
+TEST(Gltf, NewFileHasColoursFromZeroToOne)
+{
+  const Temporary_folder folder;
+  const auto written = [&](const std::string& first, const std::string& second) {
+    write_mesh(folder / "a.glb",
+               read_mesh("v 0 0 0 " + first + "\nv 1 0 0 " + second + "\nv 0 1 0 0 0 0\nf 1 2 3\n",
+                         Mesh_format::obj, "test")
+                   .soup);
+    std::vector<float> numbers;
+    for (const Attribute& colour : read_mesh(folder / "a.glb").soup.vertex_attributes)
+      for (std::size_t v = 0; v < 2; ++v) {
+        float number;
+        std::memcpy(&number, colour.rows.data() + v * sizeof number, sizeof number);
+        numbers.push_back(number);
+      }
+    return numbers;
+  };
+  using Numbers = std::vector<float>; // red of both vertices, then green and blue
+  EXPECT_EQ(written("1 0.25 0.5", "0 1 0"), (Numbers{1, 0, 0.25f, 1, 0.5f, 0}));
+  EXPECT_EQ(written("51 255 0", "1 2 102"), (Numbers{0.2f, float(1 / 255.), 1, float(2 / 255.), 0, 0.4f}));
+  EXPECT_EQ(written("1.25 0.5 -0.5", "0 0 0"), (Numbers{1, 0, 0.5f, 0, 0, 0}));
+  EXPECT_EQ(written("500 0.5 0", "0 0 0"), (Numbers{1, 0, 0.5f, 0, 0, 0}));
 }
 
 TEST(Gltf, OtherFormatsHoldWorldPositions)
