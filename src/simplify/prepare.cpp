@@ -88,11 +88,15 @@ public:
     m_prepared.normals = take_normals(soup(), m_options.normals, &m_prepared.taken_normals);
     m_prepared.is_float32 = m_options.round_to_float32;
     leave_out_degenerate();
+    const bool was_empty = soup().triangles.empty();
     if (m_options.round_to_float32 && !has_float32_points(soup()))
       round();
     if (soup().triangles.empty())
       throw Input_error(
-          "every triangle of the mesh has two corners at one position; there is nothing to reduce");
+          was_empty
+              ? "every triangle of the mesh has two corners at one position; there is nothing to reduce"
+              : "in 32-bit floats, which glTF and STL store, every triangle of the mesh has two corners at "
+                "one position; move the mesh to the origin, or write OBJ, OFF or PLY");
     find_held_vertices();
     m_prepared.scale = Scale(soup(), obstacle());
     require_size();

@@ -51,6 +51,22 @@ TEST(Refusal, NothingToReduce)
   EXPECT_THROW(prepare(soup({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}})), Input_error);
 }
 
+// A small mesh far from the origin, as surveys make them.
+TEST(Refusal, NothingLeftInFloats)
+{
+  const Triangle_soup small = mapped(
+      sheet(3, 3), [](const Point_3& p) { return Point_3(1e6 + 1e-4 * p.x(), 1e6 + 1e-4 * p.y(), 0); });
+  EXPECT_EQ(prepare(small).soup.triangles.size(), small.triangles.size());
+  Prepare_options options;
+  options.round_to_float32 = true;
+  try {
+    prepare(small, options);
+    ADD_FAILURE() << "not refused";
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("32-bit floats"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Refusal, SoupsThatBreakTheirPreconditions)
 {
   const auto expect_refused = [](const std::string& words, auto&& change) {
