@@ -202,14 +202,16 @@ public:
 
   std::size_t decoded() const { return m_sources.size(); }
 
-  void decode(const tinygltf::Primitive& primitive, const Json& extension, const std::string& place)
+  // The primitive has an accessor of its own afterwards where it shared one with other compressed data.
+  void decode(tinygltf::Primitive& primitive, Json& json, const std::string& place)
   {
+    const Json extension = *extension_of(json, draco_extension);
     const std::size_t number = number_in(m_document, extension, "bufferView");
     const std::string_view bytes =
         Gltf_column_reader(m_document, place).view(int(std::min<std::size_t>(number, INT_MAX)));
     const std::uint64_t faces = faces_of_draco(m_document, bytes, place);
     std::size_t size = 0;
-    const tinygltf::Accessor& indices = accessor(primitive.indices, place, size);
+    const int component_type = accessor(primitive.indices, place, size).componentType;
     require_rows(faces, place);
     size = std::max(size, 3 * faces * s_most_bytes_of_a_row);
     for (const auto& [name, attribute] : primitive.attributes)
@@ -228,9 +230,10 @@ public:
       m_document.fail(place + " cannot be decoded by Draco; export the file again");
     const draco::Mesh& mesh = *result.value();
     const std::unique_ptr<draco::Mesh> quantised = quantised_mesh(bytes);
-    put(primitive.indices, number, {3 * faces, indices_of(mesh, indices.componentType)}, place);
+    put(primitive.indices, {number, s_indices}, {3 * faces, indices_of(mesh, component_type)});
+    json["indices"] = primitive.indices;
     const Json& attributes = member(extension, "attributes");
-    for (const auto& [name, target] : primitive.attributes) {
+    for (auto& [name, target] : primitive.attributes) {
       if (!attributes.is_object() || !attributes.contains(name))
         continue; // it is not compressed
       const auto id = std::uint32_t(number_in(m_document, attributes, name.c_str()));
@@ -240,13 +243,17 @@ public:
       if (!attribute || rows.count > std::max<std::size_t>(3 * faces, of_target.count) ||
           !append_attribute(*attribute, rows.count, of_target, rows.bytes))
         m_document.fail(place + ": " + name + " does not fit its compressed data; export the file again");
-      put(target, number, std::move(rows), place);
+      put(target, {number, id}, std::move(rows));
+      json["attributes"][name] = target;
       m_document.compressions[target] = compression(*quantised->GetAttributeByUniqueId(id));
     }
   }
 
 private:
   static constexpr std::size_t s_most_bytes_of_a_row = 16;
+  static constexpr std::uint64_t s_indices = UINT64_MAX; // stands for no attribute
+
+  using Source = std::pair<std::size_t, std::uint64_t>; // a compressed view, and what of it
 
   struct Rows
   {
@@ -322,14 +329,27 @@ private:
   }
 
   // Gives an accessor its rows, once. Their number is that of the compressed data: some exporters leave the
-  // one that the accessor had before, although Draco splits and joins vertices.
-  void put(int number, std::size_t source, Rows rows, const std::string& place)
+  // one that the accessor had before, although Draco splits and joins vertices. Blender lets meshes whose
+  // numbers were equal before they were compressed, each by itself, share an accessor: the second one gets
+  // its own.
+  void put(int& number, const Source& source, Rows rows)
   {
     const auto [known, is_new] = m_sources.emplace(number, source);
-    if (!is_new) {
-      if (known->second != source)
-        m_document.fail(place + " shares an accessor with other compressed data; export the file again");
+    if (!is_new && known->second == source)
       return;
+    if (!is_new) {
+      const std::pair<int, Source> shared(number, source);
+      const auto own = m_own.find(shared);
+      if (own != m_own.end()) {
+        number = own->second;
+        return;
+      }
+      m_document.model.accessors.push_back(
+          tinygltf::Accessor(m_document.model.accessors[std::size_t(number)]));
+      m_document.json["accessors"].push_back(Json(m_document.json["accessors"][std::size_t(number)]));
+      number = int(m_document.model.accessors.size() - 1);
+      m_own.emplace(shared, number);
+      m_sources.emplace(number, source);
     }
     const Json view = {{"buffer", 0}, {"byteLength", rows.bytes.size()}};
     m_document.model.bufferViews.push_back(view_of(m_document, std::move(rows.bytes)));
@@ -345,7 +365,8 @@ private:
   }
 
   Gltf_document& m_document;
-  std::map<int, std::size_t> m_sources; // the compressed view of each accessor
+  std::map<int, Source> m_sources;             // what each accessor has its rows from
+  std::map<std::pair<int, Source>, int> m_own; // the accessor that stands for a shared one, for other data
 };
 #endif
 
@@ -444,10 +465,9 @@ void decode_primitives(Gltf_document& document)
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     for (std::size_t p = 0; p < document.model.meshes[m].primitives.size(); ++p) {
       Json& json = document.json["meshes"][m]["primitives"][p];
-      const Json* const extension = extension_of(json, draco_extension);
-      if (!extension)
+      if (!extension_of(json, draco_extension))
         continue;
-      decoding.decode(document.model.meshes[m].primitives[p], *extension,
+      decoding.decode(document.model.meshes[m].primitives[p], json,
                       "mesh " + std::to_string(m) + ", primitive " + std::to_string(p));
       remove_extension_of(json, draco_extension);
       ++decoded;

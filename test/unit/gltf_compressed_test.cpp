@@ -992,6 +992,30 @@ TEST(Gltf_draco, HasAsManyRowsAsItsDataWhateverItsAccessorsSay)
   EXPECT_THROW(read(document), Input_error);
 }
 
+// Blender joins accessors that are equal, and then compresses each mesh by itself.
+TEST(Gltf_draco, IsReadWherePrimitivesShareAccessorsAndNotTheirData)
+{
+  Document_of_sheet document = draco_sheet(true);
+  const Document_of_sheet other = draco_sheet(false); // with its vertices in another order
+  Json second = document.primitive(), third = document.primitive();
+  const std::size_t view =
+      document.add_view(other.bytes.substr(0, other.json["bufferViews"][0]["byteLength"]));
+  Json& mesh = document.json["meshes"][0];
+  for (Json* const primitive : {&second, &third}) {
+    (*primitive)["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = view;
+    mesh["primitives"].push_back(*primitive);
+  }
+  const Mesh_file file = read(document), plain = read(plain_sheet());
+  auto expected = triangles_of(plain.soup);
+  const auto once = expected;
+  for (int i = 0; i < 2; ++i)
+    expected.insert(once.begin(), once.end());
+  EXPECT_EQ(triangles_of(file.soup), expected);
+  const Json primitives = json_of(expect_written_by(file, {s_draco}))["meshes"][0]["primitives"];
+  EXPECT_NE(primitives[0]["indices"], primitives[1]["indices"]);
+  EXPECT_NE(primitives[0]["attributes"]["POSITION"], primitives[1]["attributes"]["POSITION"]);
+}
+
 TEST(Gltf_draco, IsRefusedWhereItIsBroken)
 {
   for (const bool is_edgebreaker : {false, true}) {
