@@ -32,11 +32,13 @@ namespace selvedge {
 class Missed_target
 {
 public:
-  /// A result, and its distances at the vertices of the original.
+  /// A result, its distances at the vertices of the original, and the original. A result that spans what was
+  /// open, as between thin rods, is far from the original between its own vertices alone.
   struct Judged
   {
     const Simplified_soup& result;
     const Distance& original_to_result;
+    const Triangle_soup& original;
   };
 
   /// `asked` are the options that the caller wants.
@@ -57,10 +59,10 @@ public:
   const Simplify_options& options() const { return m_options; }
 
   /// Called after a reduction. Returns whether another one is due: when this was the first, nothing has
-  /// stopped it, and a result has used a quarter of the error that is allowed, ended by itself at more than a
-  /// tenth above a target that is not 0, and a tenth of what is left there is at most half of what went.
-  /// Faces that cannot change do not count. In the next one, no level has more faces than one that has
-  /// reached its target now.
+  /// stopped it, and a result has used a quarter of the error that is allowed, at the vertices of the
+  /// original or anywhere on its own faces, ended by itself at more than a tenth above a target that is not
+  /// 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
+  /// count. In the next one, no level has more faces than one that has reached its target now.
   bool advance(const std::vector<Judged>& levels)
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
@@ -68,7 +70,7 @@ public:
       return is_not_due();
     std::vector<std::size_t> least;
     for (const Judged& level : levels)
-      if (is_flattened(m_options, level.original_to_result))
+      if (is_flattened(level))
         lower_to_missed(level.result.report.shares, least);
     for (const Judged& level : levels)
       lower_to_reached(level.result.report.shares, least);
@@ -95,6 +97,15 @@ private:
 
   static constexpr double s_much = 0.25; // of the error allowed
   static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
+
+  bool is_flattened(const Judged& level) const
+  {
+    const double error = m_options.max_error.value_or(0);
+    const Shares& shares = level.result.report.shares;
+    return is_flattened(m_options, level.original_to_result) ||
+           (error > 0 && std::any_of(shares.begin(), shares.end(), is_missed) &&
+            is_farther(level.result.soup, level.original, s_much * error));
+  }
 
   bool is_not_due()
   {

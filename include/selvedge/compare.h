@@ -38,6 +38,10 @@ namespace selvedge {
 /// general polygonal models*, 2009.
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to, const Bounds& of_others = {0, 0});
 
+/// Returns whether some point of `from` is farther from `to` than a share of the diagonal of `to`, as far as
+/// `maximum_distance` knows. It takes less time, for what is nearer is not looked at.
+bool is_farther(const Triangle_soup& from, const Triangle_soup& to, double share);
+
 /// Bounds of the largest distance of all poses, and the further pose in which the farthest point that was
 /// looked at is so far; none for the first pose.
 struct Bounds_over_poses : Bounds

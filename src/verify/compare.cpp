@@ -135,6 +135,12 @@ Distances_anywhere over_poses(const Distances_anywhere& in_first, const Triangle
 
 } // namespace
 
+bool is_farther(const Triangle_soup& from, const Triangle_soup& to, double share)
+{
+  const double length = Diagonal(to).length_of(share);
+  return maximum_distance(from, to, {length, length}).lower > length;
+}
+
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original)
 {
   return over_poses(distances_in_first_pose(result, original), result, original, Diagonal(original));

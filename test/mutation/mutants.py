@@ -1741,4 +1741,6 @@ group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("first.excess() > 0 && share.output", "share.output", "a part that has reached its target could lose faces"),
       ("report.faces_target = m_report.faces_target;", "", "a report names another target than was asked for"),
       ("original_to_result.maximum >= s_much * error", "original_to_result.maximum >= 0",
-       "a mesh that kept its shape is reduced again"))
+       "a mesh that kept its shape is reduced again"),
+      ("is_farther(level.result.soup, level.original, s_much * error)", "false",
+       "what spans something open has kept its shape"))

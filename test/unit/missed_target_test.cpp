@@ -14,6 +14,8 @@
 namespace selvedge::test {
 namespace {
 
+const Triangle_soup s_nothing; // from which nothing is far
+
 Simplify_options options_for_a_tenth()
 {
   Simplify_options options;
@@ -60,10 +62,10 @@ TEST(Missed_target, AsksForATenthMoreFacesOnce)
 {
   Missed_target missed(options_for_a_tenth());
   EXPECT_TRUE(missed.options().least_faces.empty());
-  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
   EXPECT_EQ(missed.options().ratio, 0.1);
-  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
 }
 
@@ -72,9 +74,9 @@ TEST(Missed_target, RemembersRefusalsAsLongAsTheyMayBeOfUse)
 {
   Missed_target missed(options_for_a_tenth());
   EXPECT_TRUE(missed.options().remembered_refusals);
-  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
   EXPECT_TRUE(missed.options().remembered_refusals);
-  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
   EXPECT_FALSE(missed.options().remembered_refusals);
   EXPECT_FALSE(Missed_target(Simplify_options()).options().remembered_refusals);
 }
@@ -87,11 +89,11 @@ TEST(Missed_target, AsksForATenthMoreOfTheFacesThatCanChange)
   for (const std::size_t target : {1100, 50}) { // one is below what cannot change
     share.target = target;
     Missed_target missed(options_for_a_tenth());
-    EXPECT_TRUE(missed.advance({{result, at_most(0.0025)}}));
+    EXPECT_TRUE(missed.advance({{result, at_most(0.0025), s_nothing}}));
     EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{1220}));
   }
   share = {2000, 1000, 1100, 1110, 0};
-  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0.0025)}}));
+  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0.0025), s_nothing}}));
 }
 
 TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
@@ -114,8 +116,26 @@ TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
     Simplified_soup result = result_above_its_target();
     Distance distance = at_most(0.0025);
     change(options, result, distance);
-    EXPECT_FALSE(Missed_target(options).advance({{result, distance}}));
+    EXPECT_FALSE(Missed_target(options).advance({{result, distance, s_nothing}}));
   }
+}
+
+// Between the ends of the legs of a frame of thin strips, at which the vertices of the result all are.
+TEST(Missed_target, AsksForMoreFacesWhereSomethingOpenIsSpanned)
+{
+  Triangle_soup frame;
+  frame.points = {Point_3(0, 0, 0),     Point_3(0.01, 0, 0), Point_3(0, 1, 0),   Point_3(10, 1, 0),
+                  Point_3(10, 0.99, 0), Point_3(10, 0, 0),   Point_3(9.99, 0, 0)};
+  frame.triangles = {{0, 1, 2}, {2, 4, 3}, {3, 6, 5}};
+  Simplified_soup result = result_above_its_target();
+  result.soup.points = frame.points;
+  for (const auto& [foot, is_due] : {std::pair(5, true), std::pair(1, false)}) {
+    result.soup.triangles = {{0, Index(foot), 2}};
+    EXPECT_EQ(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), frame}}), is_due) << foot;
+  }
+  result.soup.triangles = {{0, 5, 2}};
+  result.report.shares[0].output = 110; // hardly above its target
+  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), frame}}));
 }
 
 // What an interrupted reduction has reached is not given up for another one, which would end at once.
@@ -123,17 +143,17 @@ TEST(Missed_target, AsksForNothingWhereALaterLevelWasStopped)
 {
   const Simplified_soup first = result_above_its_target();
   Simplified_soup second = first;
-  EXPECT_TRUE(
-      Missed_target(options_for_a_tenth()).advance({{first, at_most(0.0025)}, {second, at_most(0.0025)}}));
+  EXPECT_TRUE(Missed_target(options_for_a_tenth())
+                  .advance({{first, at_most(0.0025), s_nothing}, {second, at_most(0.0025), s_nothing}}));
   second.report.is_stopped = true;
-  EXPECT_FALSE(
-      Missed_target(options_for_a_tenth()).advance({{first, at_most(0.0025)}, {second, at_most(0.0025)}}));
+  EXPECT_FALSE(Missed_target(options_for_a_tenth())
+                   .advance({{first, at_most(0.0025), s_nothing}, {second, at_most(0.0025), s_nothing}}));
 }
 
 TEST(Missed_target, AsksForMoreFacesOfThePartsThatMissedTheirTargets)
 {
   Missed_target missed(options_for_a_tenth());
-  EXPECT_TRUE(missed.advance({{result_of({{100, 99}, {50, 80}, {50, 54}}), at_most(0.01)}}));
+  EXPECT_TRUE(missed.advance({{result_of({{100, 99}, {50, 80}, {50, 54}}), at_most(0.01), s_nothing}}));
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{0, 88, 0}));
 
   std::vector<Simplified_soup> second{result_of({{100, 100}, {88, 87}, {50, 54}})};
@@ -155,7 +175,9 @@ TEST(Missed_target, AsksForNoMoreFacesThanTheLevelsThatReachedTheirTargets)
     Missed_target missed(options_for_a_tenth());
     const Simplified_soup reached = result_of({{finer, finer}}), near = result_of({{190, 200}}),
                           missing = result_of({{100, 200}});
-    EXPECT_TRUE(missed.advance({{reached, at_most(0.001)}, {near, at_most(0.01)}, {missing, at_most(0.01)}}));
+    EXPECT_TRUE(missed.advance({{reached, at_most(0.001), s_nothing},
+                                {near, at_most(0.01), s_nothing},
+                                {missing, at_most(0.01), s_nothing}}));
     EXPECT_EQ(missed.options().least_faces, std::vector<std::size_t>{least});
 
     std::vector<Simplified_soup> second{result_of({{finer, finer}}), result_of({{least, least}}),
@@ -179,7 +201,7 @@ TEST(Missed_target, MakesTheSecondResultOneOfTheTargetAskedFor)
   EXPECT_EQ(first[0].report.faces_within_reach, 0u);
   EXPECT_EQ(first[0].held_by, result_above_its_target().held_by);
 
-  ASSERT_TRUE(missed.advance({{first[0], at_most(0.01)}}));
+  ASSERT_TRUE(missed.advance({{first[0], at_most(0.01), s_nothing}}));
   std::vector<Simplified_soup> second{result_of({{220, 219}})};
   second[0].triangles = {3, 4, 5};
   missed.complete(second);
