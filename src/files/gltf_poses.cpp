@@ -168,7 +168,7 @@ public:
       }
     }
     if (targets.empty())
-      fail("has no morph targets");
+      fail("has no morph targets that could be poses; leave out the option that asks for them");
     limit(targets.size(), "morph them by another program, and give the files as poses");
     std::vector<Pose> result;
     for (const auto& [target, of_instances] : targets) {
@@ -194,7 +194,7 @@ public:
       labels.push_back("'" + label + "'");
     }
     if (labels.empty())
-      fail("has no animations");
+      fail("has no animations that could give poses; leave out the option that asks for them");
     if (chosen.empty()) {
       std::string known;
       for (const std::string& label : labels)

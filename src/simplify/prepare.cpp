@@ -165,7 +165,8 @@ private:
           const auto& [a, b, c] = triangle;
           if (has_two_corners_at_one_position({a + first_vertex, b + first_vertex, c + first_vertex}, here))
             throw Input_error("triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
-                              " has two corners at one position " + where + " and not in all poses; " + mend);
+                              " has two corners at one position in " + where + ", and not in all poses; " +
+                              mend);
         }
       };
       refuse_if_degenerate(soup().triangles, 0, "");
@@ -180,15 +181,15 @@ private:
       for (const Index_triple& triangle : soup().triangles)
         for (const Index v : triangle) {
           if (is_several[here[v]] && !m_prepared.is_held[v] && m_prepared.first_held.empty())
-            m_prepared.first_held = "vertex " + std::to_string(v + 1) + " " + where;
+            m_prepared.first_held = "vertex " + std::to_string(v + 1) + " in " + where;
           m_prepared.is_held[v] |= is_several[here[v]];
         }
     };
     hold(number_positions_of_both(soup().points, obstacle().points),
-         "in the first pose, which is the mesh's own,",
+         "the first pose, which is the mesh's own",
          "part the corners, remove the triangle, or give no poses");
     for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
-      hold(number_positions_in(pose), "in the pose '" + soup().poses[pose].name + "'",
+      hold(number_positions_in(pose), "the pose '" + soup().poses[pose].name + "'",
            "leave out this pose (--without-pose), or part the corners");
   }
 

@@ -194,7 +194,11 @@ TEST(Poses, WhatTouchesInSomeStaysApart)
     held += point.x() == 6 || point.x() == 7;
   EXPECT_EQ(held, 14u);
   std::swap(soup.points, soup.poses[0].points);
-  EXPECT_TRUE(reduce(soup, without_limits(to_ratio(0))).verification.embedded());
+  const Reduction closed = reduce(soup, without_limits(to_ratio(0)));
+  EXPECT_TRUE(closed.verification.embedded());
+  EXPECT_NE(closed.prepared.first_held.find(" in the first pose, which is the mesh's own"),
+            std::string::npos);
+  EXPECT_EQ(closed.prepared.first_held.back(), 'n') << "the end of the sentence";
 }
 
 TEST(Poses, PairsDescendInEachByItself)
