@@ -419,5 +419,21 @@ TEST(Guard, IsRightAtTheEndsOfTheRangeAndFarFromTheOrigin)
       300);
 }
 
+// The index holds boxes in single precision, the largest of which is below 2^128.
+TEST(Guard, IsRightWhereFloatsEnd)
+{
+  compare(
+      [](Random& random) {
+        Mesh mesh = layers(random);
+        add_faces(mesh, in_grid(random, 4, 2), random);
+        const bool is_small = below(random, 4) == 0; // at other sizes, nothing is decided in packs
+        const double scale = is_small ? 1 : std::ldexp(1, 122 + int(below(random, 8)));
+        for (const Vertex v : mesh.vertices())
+          mesh.point(v) = CGAL::ORIGIN + scale * (mesh.point(v) - CGAL::ORIGIN);
+        return mesh;
+      },
+      100);
+}
+
 } // namespace
 } // namespace selvedge::test
