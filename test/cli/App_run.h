@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -37,6 +38,13 @@ struct App_limits
   rlim_t memory = RLIM_INFINITY;
 };
 
+/// Where the app is: what the environment variable SELVEDGE_APP names, or the app of the build.
+inline std::string path_of_app()
+{
+  const char* const path = std::getenv("SELVEDGE_APP");
+  return path ? path : SELVEDGE_APP;
+}
+
 /// The app, running, its stderr a terminal when that is wanted.
 class App_process
 {
@@ -47,7 +55,8 @@ public:
     int slave = -1;
     if (is_on_terminal && ::openpty(&m_terminal, &slave, nullptr, nullptr, nullptr) != 0)
       throw std::runtime_error("no terminal can be opened");
-    std::vector<char*> argv{const_cast<char*>(SELVEDGE_APP)};
+    const std::string app = path_of_app();
+    std::vector<char*> argv{const_cast<char*>(app.c_str())};
     for (const std::string& argument : arguments)
       argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);

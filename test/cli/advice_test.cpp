@@ -112,6 +112,19 @@ TEST(App_simplify, LeavesOutATextureOfWhichEveryFaceHasItsOwnPiece)
       3, "--drop-attribute: the mesh has no attribute 'heat' to leave out; it has texture");
 }
 
+TEST(App_simplify, SaysWhyNoOptionHelps)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj"; // a tetrahedron
+  write_text(in, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const App_result held = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.1"});
+  EXPECT_NE(
+      held.out.find("held back: of 6 edges left, all by topology; no option helps much: every piece keeps "
+                    "its holes and handles\n"),
+      std::string::npos)
+      << held.out;
+}
+
 // At 45°, the turn of normals holds more edges than the error, but letting it go gains hardly a face.
 TEST(App_simplify, NamesFirstWhatGainsMost)
 {

@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 int run_line(const Workspace& folder, const std::string& line)
 {
   write_text(folder / "line.sh",
-             "set -o pipefail\ncd '" + folder / "" + "'\nS='" SELVEDGE_APP "'\n" + line + '\n');
+             "set -o pipefail\ncd '" + folder / "" + "'\nS='" + path_of_app() + "'\n" + line + '\n');
   return WEXITSTATUS(std::system(("bash '" + folder / "line.sh" + "'").c_str()));
 }
 

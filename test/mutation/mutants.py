@@ -1744,3 +1744,13 @@ group("include/selvedge/Missed_target.h", ("missed_target_test",),
        "a mesh that kept its shape is reduced again"),
       ("is_farther(level.result.soup, level.original, s_much * error)", "false",
        "what spans something open has kept its shape"))
+group("apps/advice.cpp", ("cli_test:App_simplify.*",),
+      ("return gain >= s_surely; }", "return true; }", "every option is said to go to the target"),
+      ("m_to_go += left - share.target", "m_to_go += left", "options gain too little"),
+      ("edges * double(m_movable) / (m_edges", "edges * double(m_left) / (m_edges", "fixed faces are said to go"),
+      ("return gains_less(b, a); });", "return gains_less(a, b); });", "what gains least is named first"),
+      ("    return edges / 2;", "    return edges;", "later rules are forgotten"),
+      ("    others -= count;\n", "", "reasons that are named count as others, too"),
+      ("count == total ? \"all\" : ", "", "all is a number"),
+      ("    return \"--instances apart\";", "    return \"\";", "what reducing places apart gains is not said"),
+      ("  if (2 * on_seams <= positions)", "  if (true)", "nobody is told that seams of the texture take the vertices"))

@@ -6,7 +6,8 @@
 A mutant changes one place of one file. The tree stays as it is: the changed file stands in a folder of its own, which
 the compiler searches first. Only the programs that are to see the mutant, or the one library source that it is in, are
 compiled anew, at -O1; all else comes from the build in --build, which is brought up to date at the start, and where
-every test must pass. With ccache a second run compiles only what has changed. The tree must not be edited meanwhile.
+every test must pass. A mutant of the program is linked to a program, which the tests of cli_test run in place of the
+build's. With ccache a second run compiles only what has changed. The tree must not be edited meanwhile.
 
     test/mutation/run.py                       all mutants
     test/mutation/run.py --only Projected_star    those whose file, change or reason holds a word
@@ -48,9 +49,10 @@ def stop(message):
     sys.exit(2)
 
 
-def run(command, folder, seconds=None):
+def run(command, folder, seconds=None, **variables):
     """Returns status and output; the status is None after `seconds`."""
     process = subprocess.Popen(command, cwd=folder, shell=isinstance(command, str), text=True, errors="replace",
+                               env={**os.environ, **variables},
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
     try:
         output, _ = process.communicate(timeout=seconds)
@@ -95,9 +97,9 @@ class Build:
         status, output = run(words, self.folder)
         return (result, None) if status == 0 else (None, output)
 
-    def link_command(self, test):
-        """Returns the words of the command that links a test."""
-        commands = subprocess.check_output(["ninja", "-C", self.folder, "-t", "commands", test], text=True)
+    def link_command(self, target):
+        """Returns the words of the command that links a test, or the program."""
+        commands = subprocess.check_output(["ninja", "-C", self.folder, "-t", "commands", target], text=True)
         words = shlex.split(commands.strip().splitlines()[-1])
         words = words[words.index("&&") + 1:]
         return words[:words.index("&&")]
@@ -107,22 +109,21 @@ class Build:
         words = self.link_command(test)
         return self.folder / words[words.index("-o") + 1]
 
-    def link(self, test, objects, overlay):
-        """Links a test with some objects in place of the build's. Returns the program."""
-        words = self.link_command(test)
+    def link(self, target, objects, overlay):
+        """Links a test, or the program, with some objects in place of the build's. Returns what has been linked."""
+        words = self.link_command(target)
         output = words.index("-o")
-        program = overlay / test
+        program = overlay / target
         words[output + 1] = str(program)
-        own = f"{pathlib.Path(self.source_of(test)).name}.o"
         replaced = [str(objects[source]) for source in objects]
-        if self.source_of(test) in objects:
-            words = [word for word in words if not word.endswith("/" + own)]
+        names = tuple(f"/{pathlib.Path(source).name}.o" for source in objects)
+        words = [word for word in words if not word.endswith(names)]
         # Before the library, so that nothing of the same name is taken from there.
         at = words.index("-o")
         words[at:at] = replaced
         status, message = run(words, self.folder)
         if status != 0:
-            stop(message + f"\n{test} cannot be linked.")
+            stop(message + f"\n{target} cannot be linked.")
         return program
 
 
@@ -147,16 +148,19 @@ def judge(build, mutant, seconds, overlay):
         objects[source], error = build.compile(source, overlay)
         if error:
             return "not compiled", error.strip().splitlines()[0][-100:]
+    of_app = {}
+    if mutant.file.startswith("apps/"):
+        of_app["SELVEDGE_APP"] = str(build.link("selvedge_app", objects, overlay))
     for test in mutant.tests:
         name, options = parts(test)
-        source = build.source_of(name)
         own = dict(objects)
-        if not mutant.file.endswith(".cpp"):
+        if not of_app and not mutant.file.endswith(".cpp"):
+            source = build.source_of(name)
             own[source], error = build.compile(source, overlay)
             if error:
                 return "not compiled", next(line for line in error.splitlines() if "error" in line)[-100:]
-        program = build.link(name, own, overlay)
-        status, output = run([str(program), *options], build.folder, 60 + 10 * seconds[test])
+        program = build.program(name) if of_app else build.link(name, own, overlay)
+        status, output = run([str(program), *options], build.folder, 60 + 10 * seconds[test], **of_app)
         if status is None:
             return "killed", f"{name} (no end)"
         if status != 0:
@@ -192,7 +196,7 @@ def main():
         if count != 1:
             stop(f"{mutant.file} has this text {count} times, not once; state the mutant anew:\n{mutant.old}")
         for test in mutant.tests:
-            if not any(TREE.glob(f"test/*/{parts(test)[0]}.cpp")):
+            if parts(test)[0] != "cli_test" and not any(TREE.glob(f"test/*/{parts(test)[0]}.cpp")):
                 stop(f"no file of test/ has the tests that are to see a mutant of {mutant.file}: {test}")
     if arguments.list:
         for mutant in chosen.values():
