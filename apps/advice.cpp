@@ -11,11 +11,13 @@
 #include <selvedge/attributes.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
+#include <selvedge/suited_normals.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -246,25 +248,57 @@ Advice options_against(const std::vector<Hindrances::Description>& all, const Si
                     estimate.text(estimate.gain(first.edges + remedies[1].edges), "both ")};
 }
 
+/// Edges that are seams because of texture and of normals that differ too little to be seen: without texture,
+/// hardly any of those that normals make is hard (`suited_to`). Zero where there are no more than those of
+/// texture alone.
+std::size_t seams_of_texture_and_soft_normals(const Simplify_request& request, const Prepared_soup& prepared,
+                                              std::size_t of_texture)
+{
+  // Where soft lines have been loosened already, the others are hard without texture, too.
+  if (prepared.normals != Normals_treatment::fitted || !request.progressive.empty() ||
+      prepared.soup.uvs.empty())
+    return 0;
+  Triangle_soup untextured = prepared.soup;
+  untextured.uvs = {};
+  if (!joins_vertices(suited_to(untextured, Normals_choice::automatic)))
+    return 0;
+  Prepared_soup without_normals = prepared;
+  without_normals.soup.normals = {};
+  const std::map<std::string, std::size_t> seams = seams_of_attributes(without_normals);
+  const auto found = seams.find("texture");
+  return found != seams.end() && found->second > of_texture ? found->second : 0;
+}
+
 /// Names the attribute that makes most of the seams that nothing else makes, if they are many. Without
 /// texture, no triangle of it can turn over.
-Advice seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
-                          const Estimate& estimate)
+Advice seams_to_leave_out(const Simplify_request& request, const Prepared_soup& prepared,
+                          const Hindrances& hindrances, const Estimate& estimate)
 {
   const std::size_t by_seams = hindrances[Hindrance::seam] + hindrances[Hindrance::texture] +
                                hindrances[Hindrance::line_end] + hindrances[Hindrance::seam_turn];
+  const double turned_over = double(hindrances[Hindrance::uv]);
   Advice result;
-  for (const auto& [attribute, count] : seams_of_attributes(prepared)) {
-    const double gain = estimate.gain(double((std::min)(count, by_seams)) +
-                                      (attribute == "texture" ? double(hindrances[Hindrance::uv]) : 0));
-    const std::string name = name_to_drop(attribute);
+  const auto add = [&](double edges, std::size_t count, const std::string& causes, const std::string& name) {
+    const double gain = estimate.gain(edges);
     if (gain > result.gain && gain >= least_gain)
       result = {gain, counted(count, "edge") + " of the input " + (count == 1 ? "is a seam" : "are seams") +
-                          " because of " + attribute + " and nothing else: " +
+                          " because of " + causes + ": " +
                           (name.empty() ? "leave it out of the file"
                                         : "--drop-attribute " + name + " lets them go") +
                           estimate.text(gain) + ", if nobody needs it"};
+  };
+  std::size_t of_texture = 0;
+  for (const auto& [attribute, count] : seams_of_attributes(prepared)) {
+    const bool is_texture = attribute == "texture";
+    if (is_texture)
+      of_texture = count;
+    add(double((std::min)(count, by_seams)) + (is_texture ? turned_over : 0), count,
+        attribute + " and nothing else", name_to_drop(attribute));
   }
+  if (result.gain < least_gain)
+    if (const std::size_t count = seams_of_texture_and_soft_normals(request, prepared, of_texture); count > 0)
+      add(double((std::min)(count, by_seams)) + turned_over, count,
+          "texture and of normals too near to be seen as edges", "texture");
   return result;
 }
 
@@ -316,7 +350,7 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   const auto gains_less = [](const Advice& a, const Advice& b) { return a.gain < b.gain; };
   // Whoever leaves out an attribute loses more than shape, so it has to gain more, and twice that to come
   // first.
-  Advice leaving_out = seams_to_leave_out(prepared, hindrances, estimate);
+  Advice leaving_out = seams_to_leave_out(request, prepared, hindrances, estimate);
   if (gains_less(*std::max_element(advice.begin(), advice.end(), gains_less), leaving_out)) {
     leaving_out.gain /= 2;
     advice.push_back(leaving_out);

@@ -125,6 +125,41 @@ TEST(App_simplify, SaysWhyNoOptionHelps)
       << held.out;
 }
 
+// As of voxels and of spheres whose faces are pasted: normals are no edges once texture is none.
+TEST(App_simplify, NamesTextureWhereNormalsThatNobodySeesGoWithIt)
+{
+  const Workspace folder;
+  const auto held_by = [&](double turn) {
+    Triangle_soup soup = sheet(20, 20);
+    for (Index t = 0; t < soup.triangles.size(); ++t) {
+      for (Index k = 0; k < 3; ++k) {
+        soup.uvs.values.push_back({t / 800., k / 4.});
+        soup.normals.values.push_back({turn * (double(t % 7) - 3), turn * (double(k) - 1), 1});
+      }
+      soup.uvs.of_triangle.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    soup.normals.of_triangle = soup.uvs.of_triangle;
+    write_mesh(folder / "in.glb", soup);
+    return run_app({"simplify", folder / "in.glb", "-o", folder / "out.glb", "--ratio", "0.1"}).out;
+  };
+  const std::string soft = held_by(0.02), hard = held_by(9);
+  EXPECT_NE(soft.find("; 1,160 edges of the input are seams because of texture and of normals too near to be "
+                      "seen as edges: --drop-attribute texture lets them go (to about "),
+            std::string::npos)
+      << soft;
+  EXPECT_EQ(soft.find("no option helps"), std::string::npos) << soft;
+  EXPECT_EQ(hard.find("--drop-attribute texture lets them go"), std::string::npos) << hard;
+  EXPECT_NE(run_app({"simplify", folder / "in.glb", "-o", folder / "out.glb", "--ratio", "0.1",
+                     "--drop-attribute", "texture"})
+                .out.find("not reached"),
+            std::string::npos);
+  held_by(0.02);
+  EXPECT_NE(run_app({"simplify", folder / "in.glb", "-o", folder / "out.glb", "--ratio", "0.1",
+                     "--drop-attribute", "texture"})
+                .out.find("target 80 reached"),
+            std::string::npos);
+}
+
 // At 45°, the turn of normals holds more edges than the error, but letting it go gains hardly a face.
 TEST(App_simplify, NamesFirstWhatGainsMost)
 {
