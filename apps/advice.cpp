@@ -60,6 +60,22 @@ std::string options_without_shape(const Simplify_request& request, const Simplif
   return options;
 }
 
+/// Says that lines were eased, and by which options they are not; empty where none was.
+std::string what_lines_lose(const Simplify_options& asked, const Simplify_report& report)
+{
+  if (!report.eased_lines)
+    return "";
+  std::string options;
+  const auto add = [&](const char* option, double limit, double eased) {
+    if (limit != eased)
+      options += option + with_digits(limit);
+  };
+  add(" --border-turn ", asked.max_border_turn, report.eased_lines->border_turn);
+  add(" --border-drift ", asked.max_border_drift, report.eased_lines->border_drift);
+  return "\neased: limits of borders, which keep faces there that the rest needs more;" + options +
+         " keeps to them";
+}
+
 /// Returns the option that takes a reason away; empty when none does.
 std::string remedy(Hindrance reason, const Simplify_request& request)
 {
@@ -376,7 +392,8 @@ std::string what_shape_takes(const Simplify_request& request, const Simplify_rep
   if (within_reach > 0 && within_reach < faces)
     return "\nkept: " + counted(faces - within_reach, "face") +
            " that could go, because all that nothing holds would be flattened for them;" +
-           options_without_shape(request, report) + " lets them go";
+           options_without_shape(request, report) + " lets them go" +
+           what_lines_lose(request.options, report);
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
   if (is_shape_kept(request) || !is_asked_for_target ||
       !Missed_target::is_flattened(request.options, distance))

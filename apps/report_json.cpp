@@ -183,7 +183,11 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["target"] = {
       {"reached", done.is_reached()},
       {"outcome", done.outcome()},
-      {"within_reach", done.faces_within_reach == 0 ? Json(nullptr) : Json(done.faces_within_reach)}};
+      {"within_reach", done.faces_within_reach == 0 ? Json(nullptr) : Json(done.faces_within_reach)},
+      {"eased", nullptr}};
+  if (done.eased_lines)
+    report["target"]["eased"] = {{"border_turn", done.eased_lines->border_turn},
+                                 {"border_drift", done.eased_lines->border_drift}};
   Json hindrances;
   for (const Hindrances::Description& description : Hindrances::descriptions())
     hindrances[description.key] = done.hindrances[description.reason];

@@ -195,11 +195,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option("--border-turn", options.max_border_turn,
+      .add_option("--border-turn", request.border_turn,
                   "Largest turn of a border at a vertex that is removed, in degrees, where the corner is not low.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
-      ->capture_default_str()
+      ->default_str(with_digits(options.max_border_turn))
       ->group(limits);
   command
       .add_option("--corner-height", request.corner_height,
@@ -218,11 +218,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option("--border-drift", options.max_border_drift,
+      .add_option("--border-drift", request.border_drift,
                   "Largest distance of a border or seam from where it was, as a share of the diagonal.")
       ->check(in_range(0))
       ->type_name("D")
-      ->capture_default_str()
+      ->default_str(with_digits(options.max_border_drift))
       ->group(limits);
   command
       .add_option(

@@ -25,6 +25,12 @@ namespace selvedge {
 /// and figures that got stuck above 10 %, the RMS distance at a tenth more faces was 0.44, 0.60, 0.66, 0.75,
 /// 0.75 and 0.90 of that at the end. Where a reduction is not stuck, it is about 0.9.
 ///
+/// What holds the others is often the course of borders, as in strips of hair, whose outlines keep every
+/// corner while the head below loses its shape. So the second reduction *eases lines*: borders turn by any
+/// angle, and all lines drift farther, so that the cost, which counts what a line loses as it counts what a
+/// surface does, says more about where faces go. Seams turn no more, because there the texture would show
+/// what lies beside its charts.
+///
 /// A caller reduces with the options of `options()`, judges, hands the results to `advance`, and reduces
 /// again if this returns true. Then `complete` makes the second results those of the targets that were asked
 /// for. There is one result, or one for each level of detail. Parts with a ratio of their own have a target
@@ -41,8 +47,15 @@ public:
     const Triangle_soup& original;
   };
 
+  /// Limits of lines that somebody has set, so that they stay. Any that is not the default counts as set.
+  struct Limits_set
+  {
+    bool border_turn = false, border_drift = false;
+  };
+
   /// `asked` are the options that the caller wants.
-  explicit Missed_target(Simplify_options asked) : m_options(std::move(asked))
+  explicit Missed_target(Simplify_options asked) : Missed_target(std::move(asked), Limits_set()) {}
+  Missed_target(Simplify_options asked, const Limits_set& set) : m_options(std::move(asked)), m_set(set)
   {
     if (m_options.ratio || m_options.faces)
       m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
@@ -62,7 +75,9 @@ public:
   /// stopped it, and a result has used a quarter of the error that is allowed, at the vertices of the
   /// original or anywhere on its own faces, ended by itself at more than a tenth above a target that is not
   /// 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
-  /// count. In the next one, no level has more faces than one that has reached its target now.
+  /// count. In the next one, no level has more faces than one that has reached its target now; and where
+  /// limits of lines hold a fiftieth of the edges or more, they are eased, as far as nobody has set them,
+  /// unless some level or part has reached its target.
   bool advance(const std::vector<Judged>& levels)
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
@@ -78,6 +93,8 @@ public:
     if (std::all_of(least.begin(), least.end(), [](std::size_t faces) { return faces == 0; }))
       return is_not_due();
     m_options.least_faces = std::move(least);
+    if (std::all_of(levels.begin(), levels.end(), is_held_by_lines))
+      ease_lines();
     for (const Judged& level : levels)
       m_first.emplace_back(level.result);
     return true;
@@ -88,14 +105,18 @@ public:
   /// Does nothing to first results.
   void complete(std::vector<Simplified_soup>& levels) const
   {
-    for (std::size_t i = 0; i < m_first.size(); ++i)
+    for (std::size_t i = 0; i < m_first.size(); ++i) {
       m_first[i].complete(levels[i]);
+      if (m_are_lines_eased)
+        levels[i].report.eased_lines = {{m_options.max_border_turn, m_options.max_border_drift}};
+    }
   }
 
 private:
   using Shares = std::vector<Simplify_report::Share>;
 
   static constexpr double s_much = 0.25; // of the error allowed
+  static constexpr double s_drift_eased = 3;
   static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
 
   bool is_flattened(const Judged& level) const
@@ -111,6 +132,31 @@ private:
   {
     m_options.remembered_refusals.reset(); // which take memory
     return false;
+  }
+
+  // Whether limits of lines hold a fiftieth of the edges or more, and no part has reached its target.
+  static bool is_held_by_lines(const Judged& level)
+  {
+    const Simplify_report& report = level.result.report;
+    const Hindrances& held = report.hindrances;
+    const std::size_t by_lines = held[Hindrance::border_turn] + held[Hindrance::drift];
+    return by_lines > 0 && 50 * by_lines >= held.total() - held[Hindrance::target] &&
+           std::none_of(report.shares.begin(), report.shares.end(), [](const Simplify_report::Share& share) {
+             return share.excess() == 0 && share.input > share.fixed;
+           });
+  }
+
+  void ease_lines()
+  {
+    const Simplify_options plain;
+    const auto ease = [&](double Simplify_options::*limit, bool is_set, double eased) {
+      if (is_set || m_options.*limit != plain.*limit)
+        return;
+      m_options.*limit = eased;
+      m_are_lines_eased = true;
+    };
+    ease(&Simplify_options::max_border_turn, m_set.border_turn, 180);
+    ease(&Simplify_options::max_border_drift, m_set.border_drift, s_drift_eased * plain.max_border_drift);
   }
 
   static std::size_t a_tenth(std::size_t faces) { return (faces + 9) / 10; }
@@ -180,6 +226,8 @@ private:
   };
 
   Simplify_options m_options;
+  Limits_set m_set;
+  bool m_are_lines_eased = false;
   std::vector<First> m_first; // of all levels, once they are to be reduced again
 };
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,14 @@ struct Simplify_report
   /// Where a caller reduced to more faces than is possible, to keep shape (`Missed_target`): the fewest that
   /// are possible, for which `hindrances` are. Otherwise 0.
   std::size_t faces_within_reach = 0;
+
+  /// Limits of lines, as in `Simplify_options`.
+  struct Line_limits
+  {
+    double border_turn = 0, border_drift = 0;
+  };
+  /// Where the caller has eased lines, too (`Missed_target`): the limits to which it reduced.
+  std::optional<Line_limits> eased_lines;
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place
   std::size_t left_alone = 0; ///< vertices whose partners have gone without them; see `Prepared_soup::tied`

@@ -559,6 +559,53 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
   }
 }
 
+// Borders that keep every corner keep faces that a sphere needs more, unless somebody wants them to.
+TEST(App_simplify, EasesBordersWhereATargetIsMissed)
+{
+  const Workspace folder;
+  Generate_options of_sphere;
+  of_sphere.faces = 2000;
+  of_sphere.layers = 1;
+  Triangle_soup soup = generate("nested", of_sphere);
+  for (Point_3& p : soup.points)
+    p = Point_3(2 * p.x(), 2 * p.y(), 2 * p.z());
+  soup.uvs = {};
+  soup.groups = {};
+  constexpr int squares = 80;
+  Triangle_soup strip = sheet(squares, 1);
+  for (Point_3& p : strip.points)
+    p = Point_3(0.05 * p.x() - 2, 0.2 * p.y() + (int(p.x()) % 2 == 0 ? 0.01 : -0.01), 0);
+  for (int i = 0; i < 6; ++i)
+    soup = joined(soup, moved(strip, 0, 2 + 0.5 * i, 0));
+  const std::string in = folder / "in.obj", out = folder / "out.obj", log = folder / "out.log",
+                    report = folder / "report.json";
+  write_mesh(in, soup);
+  const auto json = [&] { return nlohmann::json::parse(contents_of(report)); };
+  const auto run = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"simplify", in, "-o", out, "--ratio", "0.05", "--report", report});
+    return run_app(options).out;
+  };
+  const std::string eased = run({"--log", log});
+  const double faces = json().at("faces").at("output");
+  EXPECT_NE(eased.find("\neased: limits of borders, which keep faces there that the rest needs more; "
+                       "--border-turn 30 --border-drift 0.01 keeps to them\n"),
+            std::string::npos)
+      << eased;
+  EXPECT_EQ(json().at("target").at("eased"), nlohmann::json({{"border_turn", 180}, {"border_drift", 0.03}}));
+  EXPECT_EQ(run_app({"replay", in, log}).code, 0);
+
+  const std::string strict = run({"--border-turn", "30", "--border-drift", "0.01"});
+  EXPECT_NEAR(json().at("faces").at("output"), faces, 0.01 * faces);
+  EXPECT_EQ(json().at("target").at("eased"), nullptr);
+  EXPECT_NE(strict.find("\nkept: "), std::string::npos);
+  EXPECT_EQ(strict.find("\neased: "), std::string::npos);
+  EXPECT_LT(rms_of(eased), 0.8 * rms_of(strict));
+
+  const std::string partly = run({"--border-turn", "30"});
+  EXPECT_NE(partly.find("; --border-drift 0.01 keeps to them\n"), std::string::npos);
+  EXPECT_EQ(json().at("target").at("eased").at("border_turn"), 30);
+}
+
 // Parts that stay have no shape to lose, and no options count the faces of those that are kept.
 TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
 {

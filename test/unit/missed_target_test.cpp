@@ -213,6 +213,96 @@ TEST(Missed_target, MakesTheSecondResultOneOfTheTargetAskedFor)
             (std::vector<Hindrance>{Hindrance::seam, Hindrance::target, Hindrance::error}));
 }
 
+// Returns a result above its target of which limits of lines hold one edge of so many.
+Simplified_soup result_held_by_lines(std::size_t edges)
+{
+  Simplified_soup result = result_above_its_target();
+  result.report.hindrances = {};
+  result.report.hindrances[Hindrance::drift] = 1;
+  result.report.hindrances[Hindrance::seam] = edges - 1;
+  result.report.hindrances[Hindrance::target] = 1000; // of parts that are not above theirs
+  return result;
+}
+
+// Lines that keep their course keep faces that the surface needs more.
+TEST(Missed_target, EasesLimitsOfLinesThatHoldEdges)
+{
+  for (const Hindrance reason : {Hindrance::border_turn, Hindrance::drift}) {
+    Simplified_soup first = result_held_by_lines(50);
+    std::swap(first.report.hindrances[reason], first.report.hindrances[Hindrance::drift]);
+    Missed_target missed(options_for_a_tenth());
+    const Simplify_options before = missed.options();
+    ASSERT_TRUE(missed.advance({{first, at_most(0.0025), s_nothing}}));
+    EXPECT_EQ(missed.options().max_border_turn, 180);
+    EXPECT_EQ(missed.options().max_seam_turn, before.max_seam_turn);
+    EXPECT_EQ(missed.options().max_border_drift, 3 * before.max_border_drift);
+    EXPECT_EQ(missed.options().max_normal_change, before.max_normal_change);
+    EXPECT_FALSE(first.report.eased_lines);
+
+    std::vector<Simplified_soup> second{result_of({{220, 219}})};
+    missed.complete(second);
+    ASSERT_TRUE(second[0].report.eased_lines);
+    EXPECT_EQ(second[0].report.eased_lines->border_turn, 180);
+    EXPECT_EQ(second[0].report.eased_lines->border_drift, 3 * before.max_border_drift);
+  }
+}
+
+TEST(Missed_target, KeepsToLimitsOfLinesThatHoldHardlyAnEdge)
+{
+  const Simplified_soup first = result_held_by_lines(51);
+  Missed_target missed(options_for_a_tenth());
+  ASSERT_TRUE(missed.advance({{first, at_most(0.0025), s_nothing}}));
+  EXPECT_EQ(missed.options().max_border_turn, Simplify_options().max_border_turn);
+  std::vector<Simplified_soup> second{result_of({{220, 219}})};
+  missed.complete(second);
+  EXPECT_FALSE(second[0].report.eased_lines);
+}
+
+TEST(Missed_target, KeepsToLimitsThatSomebodyHasSet)
+{
+  const Simplified_soup first = result_held_by_lines(1);
+  const auto options_after = [&](Simplify_options options, const Missed_target::Limits_set& set) {
+    options.ratio = 0.1;
+    options.max_error = 0.01;
+    Missed_target missed(options, set);
+    EXPECT_TRUE(missed.advance({{first, at_most(0.0025), s_nothing}}));
+    std::vector<Simplified_soup> second{result_of({{220, 219}})};
+    missed.complete(second);
+    EXPECT_EQ(second[0].report.eased_lines.has_value(), !(set.border_turn && set.border_drift));
+    return missed.options();
+  };
+  const Simplify_options plain;
+  const Simplify_options both_set = options_after(plain, {true, true});
+  EXPECT_EQ(both_set.max_border_turn, plain.max_border_turn);
+  EXPECT_EQ(both_set.max_border_drift, plain.max_border_drift);
+  const Simplify_options one_set = options_after(plain, {false, true});
+  EXPECT_EQ(one_set.max_border_turn, 180);
+  EXPECT_EQ(one_set.max_border_drift, plain.max_border_drift);
+  Simplify_options own;
+  own.max_border_turn = 8;
+  EXPECT_EQ(options_after(own, {}).max_border_turn, 8);
+  EXPECT_GT(options_after(own, {}).max_border_drift, plain.max_border_drift);
+}
+
+// What has reached its target stays what it would be without the others.
+TEST(Missed_target, KeepsToLimitsOfLinesWhereALevelOrPartHasReachedItsTarget)
+{
+  const Simplified_soup missing = result_held_by_lines(1);
+  const auto is_eased = [&](const std::vector<Missed_target::Judged>& levels) {
+    Missed_target missed(options_for_a_tenth());
+    EXPECT_TRUE(missed.advance(levels));
+    return missed.options().max_border_turn == 180;
+  };
+  EXPECT_TRUE(is_eased({{missing, at_most(0.01)}, {missing, at_most(0.01)}}));
+  const Simplified_soup reached = result_of({{500, 500}});
+  EXPECT_FALSE(is_eased({{reached, at_most(0.001)}, {missing, at_most(0.01)}}));
+  Simplified_soup parts = missing;
+  parts.report.shares.push_back({1000, 0, 300, 300, 0});
+  EXPECT_FALSE(is_eased({{parts, at_most(0.01)}}));
+  parts.report.shares.back() = {300, 300, 300, 300, 0}; // cannot change
+  EXPECT_TRUE(is_eased({{parts, at_most(0.01)}}));
+}
+
 // The fewest faces bound the targets of ratios, of levels and of numbers of faces, and cells do their part.
 TEST(Missed_target, ReducesToTheFewestFacesThatAreAllowed)
 {
