@@ -73,7 +73,7 @@ public:
 
   /// Called after a reduction. Returns whether another one is due: when this was the first, nothing has
   /// stopped it, and a result has used a quarter of the error that is allowed, at the vertices of the
-  /// original or anywhere on its own faces, ended by itself at more than a tenth above a target that is not
+  /// original or anywhere on its own faces, ended by itself above a target that is not
   /// 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
   /// count. In the next one, no level has more faces than one that has reached its target now; and where
   /// limits of lines hold a fiftieth of the edges or more, they are eased, as far as nobody has set them,
@@ -164,9 +164,8 @@ private:
   static bool is_missed(const Simplify_report::Share& share)
   {
     const bool is_asked_for = share.target > 0 && share.target != share.fixed; // which a ratio of 0 gives
-    const std::size_t left = share.output - share.fixed,
-                      wanted = (std::max)(share.target, share.fixed) - share.fixed;
-    return is_asked_for && left > wanted + a_tenth(wanted) &&
+    const std::size_t left = share.output - share.fixed;
+    return is_asked_for && share.output > (std::max)(share.target, share.fixed) &&
            a_tenth(left) <= (share.input - share.output) / 2;
   }
 
