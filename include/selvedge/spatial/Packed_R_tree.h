@@ -350,10 +350,13 @@ private:
     if (face >= m_slots.size())
       m_slots.resize(face + std::size_t(1), s_none);
     Slot& slot = m_slots[face];
-    const bool is_new = slot == s_none;
+    const bool is_new = slot == s_none; // not one that was removed: that gets its slot again
     if (is_new)
       slot = new_slot();
-    put({mapped, face}, slot);
+    Leaf& leaf = m_leaves[slot / s_width];
+    m_size += leaf.faces[slot % s_width] == s_none;
+    leaf.faces[slot % s_width] = face;
+    leaf.boxes.set(slot % s_width, mapped);
     grow(slot / s_width, mapped);
     constexpr std::size_t least = 8;
     if (is_new && m_leaves.size() - m_leaves_in_tree > least + m_leaves_in_tree / 8)
@@ -365,15 +368,6 @@ private:
     if (m_slot_count == s_width * m_leaves.size())
       m_leaves.emplace_back();
     return m_slot_count++;
-  }
-
-  void put(const Entry& entry, Slot slot)
-  {
-    Leaf& leaf = m_leaves[slot / s_width];
-    Id& face = leaf.faces[slot % s_width];
-    m_size += face == s_none;
-    face = entry.face;
-    leaf.boxes.set(slot % s_width, entry.box);
   }
 
   // Enlarges the boxes above a leaf so that they contain `box`, up to the first that already does.
