@@ -216,7 +216,7 @@ TEST_P(Framed_boxes, AreFoundAndReadBackHardlyLarger)
         continue;
       }
       ASSERT_TRUE(block[k].contains(boxes[k]));
-      ASSERT_TRUE(block.bounding_box().contains(boxes[k]));
+      ASSERT_TRUE(bounding_box(block).contains(boxes[k]));
       for (std::size_t axis = 0; axis < 3 && extent < 1e30; ++axis) {
         // A frame has room for boxes that have left; and floats have an end.
         const double most = std::max(0.01 * extent, 2e-6 * std::abs(double(all.lower[axis])));

@@ -242,7 +242,7 @@ private:
       below = mean;
       count = level.size();
     }
-    return !(below * most < extent(m_levels.back().front().bounding_box()));
+    return !(below * most < extent(bounding_box(m_levels.back().front())));
   }
 
   static double extent(const internal::Monotone_box& box)
@@ -327,7 +327,7 @@ private:
       std::vector<internal::Monotone_box> boxes;
       boxes.reserve(blocks.size());
       for (const auto& block : blocks)
-        boxes.push_back(block_of(block).bounding_box());
+        boxes.push_back(bounding_box(block_of(block)));
       return boxes;
     };
     auto boxes = bounding_boxes(m_leaves, [](const Leaf& leaf) { return leaf.boxes; });

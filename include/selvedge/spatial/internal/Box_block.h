@@ -45,15 +45,6 @@ public:
             {m_bounds[3][i], m_bounds[4][i], m_bounds[5][i]}};
   }
 
-  /// The bounding box of all sixteen.
-  Monotone_box bounding_box() const
-  {
-    Monotone_box box = Monotone_box::empty();
-    for (std::size_t i = 0; i < width; ++i)
-      box += (*this)[i];
-    return box;
-  }
-
   Mask overlapping(const Monotone_box& box) const
   {
     const auto& [x0, y0, z0, x1, y1, z1] = m_bounds;
@@ -75,6 +66,16 @@ private:
 
   std::array<Row, 6> m_bounds; // lower x, y, z, upper x, y, z
 };
+
+/// Returns a box around the sixteen of a block or an array.
+template <class Boxes>
+Monotone_box bounding_box(const Boxes& boxes)
+{
+  Monotone_box box = Monotone_box::empty();
+  for (std::size_t i = 0; i < Box_block::width; ++i)
+    box += boxes[i];
+  return box;
+}
 
 } // namespace internal
 } // namespace selvedge

@@ -40,10 +40,7 @@ public:
   /// Makes a frame for these boxes, some of which may be empty.
   explicit Framed_box_block(const Boxes& boxes)
   {
-    Monotone_box all = Monotone_box::empty();
-    for (const Monotone_box& box : boxes)
-      all += box;
-    if (!all.is_empty())
+    if (const Monotone_box all = bounding_box(boxes); !all.is_empty())
       make_frame(all);
     for (std::size_t i = 0; i < width; ++i)
       put(i, boxes[i]);
@@ -87,15 +84,6 @@ public:
       box.lower[axis] = lower == 0 ? -s_largest : place(axis, lower - 2);
       box.upper[axis] = upper == s_last ? s_largest : place(axis, upper + 3);
     }
-    return box;
-  }
-
-  /// Returns a box around all sixteen.
-  Monotone_box bounding_box() const
-  {
-    Monotone_box box = Monotone_box::empty();
-    for (std::size_t i = 0; i < width; ++i)
-      box += (*this)[i];
     return box;
   }
 
