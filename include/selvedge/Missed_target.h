@@ -72,12 +72,13 @@ public:
   const Simplify_options& options() const { return m_options; }
 
   /// Called after a reduction. Returns whether another one is due: when this was the first, nothing has
-  /// stopped it, and a result has used a quarter of the error that is allowed, at the vertices of the
-  /// original or anywhere on its own faces, ended by itself above a target that is not
-  /// 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
-  /// count. In the next one, no level has more faces than one that has reached its target now; and where
-  /// limits of lines hold a fiftieth of the edges or more, they are eased, as far as nobody has set them,
-  /// unless some level or part has reached its target.
+  /// stopped it, and a result ended above a target that is not 0, has used a quarter of the error that is
+  /// allowed, at the vertices of the original or anywhere on its own faces, and a tenth of its faces is at
+  /// most half of what went. Faces that cannot change do not count.
+  ///
+  /// In the next one, no level has more faces than one that has reached its target now. Where limits of lines
+  /// hold a fiftieth of the edges or more, they are eased, as far as nobody has set them, unless some level
+  /// or part has reached its target.
   bool advance(const std::vector<Judged>& levels)
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
@@ -121,11 +122,13 @@ private:
 
   bool is_flattened(const Judged& level) const
   {
+    if (is_flattened(m_options, level.original_to_result))
+      return true;
     const double error = m_options.max_error.value_or(0);
     const Shares& shares = level.result.report.shares;
-    return is_flattened(m_options, level.original_to_result) ||
-           (error > 0 && std::any_of(shares.begin(), shares.end(), is_missed) &&
-            is_farther(level.result.soup, level.original, s_much * error));
+    if (error == 0 || std::none_of(shares.begin(), shares.end(), is_missed)) // looking farther takes time
+      return false;
+    return is_farther(level.result.soup, level.original, s_much * error);
   }
 
   bool is_not_due()
@@ -137,13 +140,14 @@ private:
   // Whether limits of lines hold a fiftieth of the edges or more, and no part has reached its target.
   static bool is_held_by_lines(const Judged& level)
   {
-    const Simplify_report& report = level.result.report;
-    const Hindrances& held = report.hindrances;
+    const Shares& shares = level.result.report.shares;
+    const Hindrances& held = level.result.report.hindrances;
     const std::size_t by_lines = held[Hindrance::border_turn] + held[Hindrance::drift];
-    return by_lines > 0 && 50 * by_lines >= held.total() - held[Hindrance::target] &&
-           std::none_of(report.shares.begin(), report.shares.end(), [](const Simplify_report::Share& share) {
-             return share.excess() == 0 && share.input > share.fixed;
-           });
+    if (by_lines == 0 || 50 * by_lines < held.total() - held[Hindrance::target])
+      return false;
+    return std::none_of(shares.begin(), shares.end(), [](const Simplify_report::Share& share) {
+      return share.excess() == 0 && share.input > share.fixed;
+    });
   }
 
   void ease_lines()
@@ -164,9 +168,9 @@ private:
   static bool is_missed(const Simplify_report::Share& share)
   {
     const bool is_asked_for = share.target > 0 && share.target != share.fixed; // which a ratio of 0 gives
-    const std::size_t left = share.output - share.fixed;
-    return is_asked_for && share.output > (std::max)(share.target, share.fixed) &&
-           a_tenth(left) <= (share.input - share.output) / 2;
+    if (!is_asked_for || share.output <= (std::max)(share.target, share.fixed))
+      return false;
+    return a_tenth(share.output - share.fixed) <= (share.input - share.output) / 2;
   }
 
   static void lower_to_missed(const Shares& shares, std::vector<std::size_t>& least)

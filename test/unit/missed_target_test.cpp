@@ -69,7 +69,6 @@ TEST(Missed_target, AsksForATenthMoreFacesOnce)
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
 }
 
-// Faces that cannot change keep no shape.
 TEST(Missed_target, RemembersRefusalsAsLongAsTheyMayBeOfUse)
 {
   Missed_target missed(options_for_a_tenth());
@@ -81,6 +80,7 @@ TEST(Missed_target, RemembersRefusalsAsLongAsTheyMayBeOfUse)
   EXPECT_FALSE(Missed_target(Simplify_options()).options().remembered_refusals);
 }
 
+// Faces that cannot change keep no shape.
 TEST(Missed_target, AsksForATenthMoreOfTheFacesThatCanChange)
 {
   Simplified_soup result = result_above_its_target();
