@@ -3,22 +3,17 @@
 
 #include "advice.h"
 
-#include "small_pieces.h"
 #include "text.h"
 
-#include <selvedge/Missed_target.h>
-#include <selvedge/Parts.h>
 #include <selvedge/attributes.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
 #include <selvedge/suited_normals.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,45 +32,6 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
-/// Returns the options that let the faces go that were kept for the shape.
-std::string options_without_shape(const Simplify_request& request, const Simplify_report& report)
-{
-  const std::vector<Simplify_intent::Part_ratio>& parts = request.intent.ratios;
-  std::string options;
-  for (std::size_t i = 0; i < report.shares.size(); ++i) {
-    const Simplify_report::Share& share = report.shares[i];
-    if (share.within_reach == 0)
-      continue;
-    const std::string ratio =
-        with_digits_up(double(share.within_reach - share.fixed) / double(share.input - share.fixed));
-    if (i > 0)
-      options += " --ratio '" + parts[i - 1].name + '=' + ratio + '\'';
-    else if (!request.lods.empty())
-      options += " --lods " + ratio;
-    else if (request.options.ratio && !parts.empty())
-      options += " --ratio " + ratio;
-    else
-      options += " --faces " + std::to_string(share.within_reach);
-  }
-  return options;
-}
-
-/// Says that lines were eased, and by which options they are not; empty where none was.
-std::string what_lines_lose(const Simplify_options& asked, const Simplify_report& report)
-{
-  if (!report.eased_lines)
-    return "";
-  std::string options;
-  const auto add = [&](const char* option, double limit, double eased) {
-    if (limit != eased)
-      options += option + with_digits(limit);
-  };
-  add(" --border-turn ", asked.max_border_turn, report.eased_lines->border_turn);
-  add(" --border-drift ", asked.max_border_drift, report.eased_lines->border_drift);
-  return "\neased: limits of borders, which keep faces there that the rest needs more;" + options +
-         " keeps to them";
-}
-
 /// Returns the option that takes a reason away; empty when none does.
 std::string remedy(Hindrance reason, const Simplify_request& request)
 {
@@ -90,8 +46,9 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
   case Hindrance::normals:
     return joins_vertices(request.normals) || !request.progressive.empty() ? "" : "--normals loose";
   case Hindrance::border_turn:
-    return options.max_border_turn == 180 ? ""
-           : request.corner_height && options.max_normal_change == 180
+    if (options.max_border_turn == 180)
+      return "";
+    return request.corner_height && options.max_normal_change == 180
                ? "--border-turn 180 without --corner-height"
                : "--border-turn 180";
   case Hindrance::seam_turn:
@@ -227,28 +184,29 @@ double edges_let_go(Hindrance reason, const Hindrances& hindrances)
 
 /// Names the option that gains most, and the next if it gains at least half as much and the first is not
 /// expected to be enough. Of those that are, the one that costs least is named.
-Advice options_against(const std::vector<Hindrances::Description>& all, const Simplify_request& request,
+Advice options_against(const std::vector<Hindrances::Description>& reasons, const Simplify_request& request,
                        const Simplified_soup& reduced, const Estimate& estimate)
 {
   struct Remedy
   {
     double edges;
-    bool costs_shape;
     std::string option;
     Hindrances::Description description;
   };
   const Hindrances& hindrances = reduced.report.hindrances;
   std::vector<Remedy> remedies;
-  for (const Hindrances::Description& description : all) {
+  for (const Hindrances::Description& description : reasons) {
     const double edges = edges_let_go(description.reason, hindrances);
     if (const std::string option = remedy(description.reason, request);
         !option.empty() && estimate.gain(edges) >= least_gain)
-      remedies.push_back({edges, description.reason == Hindrance::error, option, description});
+      remedies.push_back({edges, option, description});
   }
-  std::stable_sort(remedies.begin(), remedies.end(), [&](const Remedy& a, const Remedy& b) {
-    return std::pair(-estimate.gain(a.edges), a.costs_shape) <
-           std::pair(-estimate.gain(b.edges), b.costs_shape);
-  });
+  const auto rank = [&](const Remedy& remedy) {
+    const bool costs_shape = remedy.description.reason == Hindrance::error;
+    return std::pair(-estimate.gain(remedy.edges), costs_shape);
+  };
+  std::stable_sort(remedies.begin(), remedies.end(),
+                   [&](const Remedy& a, const Remedy& b) { return rank(a) < rank(b); });
   if (remedies.empty())
     return {};
   const auto named = [&](const Remedy& remedy, bool is_clear) {
@@ -258,8 +216,9 @@ Advice options_against(const std::vector<Hindrances::Description>& all, const Si
   const Remedy& first = remedies[0];
   const double gain = estimate.gain(first.edges);
   const std::string reached = estimate.text(gain);
-  if (remedies.size() == 1 || estimate.reaches(gain) || 2 * remedies[1].edges < first.edges)
-    return {gain, "try " + named(first, first.description.reason == all[0].reason) + reached};
+  const bool is_next_of_use = remedies.size() > 1 && 2 * remedies[1].edges >= first.edges;
+  if (!is_next_of_use || estimate.reaches(gain))
+    return {gain, "try " + named(first, first.description.reason == reasons[0].reason) + reached};
   return {gain, "try " + named(first, false) + reached + " and " + named(remedies[1], false) +
                     estimate.text(estimate.gain(first.edges + remedies[1].edges), "both ")};
 }
@@ -271,8 +230,8 @@ std::size_t seams_of_texture_and_soft_normals(const Simplify_request& request, c
                                               std::size_t of_texture)
 {
   // Where soft lines have been loosened already, the others are hard without texture, too.
-  if (prepared.normals != Normals_treatment::fitted || !request.progressive.empty() ||
-      prepared.soup.uvs.empty())
+  const bool can_loosen = prepared.normals == Normals_treatment::fitted && request.progressive.empty();
+  if (!can_loosen || prepared.soup.uvs.empty())
     return 0;
   Triangle_soup untextured = prepared.soup;
   untextured.uvs = {};
@@ -322,47 +281,26 @@ Advice seams_to_leave_out(const Simplify_request& request, const Prepared_soup& 
 Advice seams_to_let_gape(const Simplify_request& request, const Prepared_soup& prepared,
                          const Hindrances& hindrances, const Estimate& estimate)
 {
+  const bool are_seams_held = request.open_seams == Open_seams::hold && !prepared.facing.empty();
   const std::size_t held = hindrances[Hindrance::gap] + hindrances[Hindrance::drift];
   const double gain =
       estimate.gain(edges_let_go(Hindrance::gap, hindrances) + double(hindrances[Hindrance::drift]));
-  if (request.open_seams != Open_seams::hold || prepared.facing.empty() || gain < least_gain)
+  if (!are_seams_held || gain < least_gain)
     return {};
   return {gain, with_commas(held) +
                     " are held so that seams that stand open get hardly wider: --weld none lets them go" +
                     estimate.text(gain) + ", if they are no seams, as between strips of hair"};
 }
 
-} // namespace
-
-std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
-                      const Simplified_soup& result)
+/// Returns what helps, first what gains most; the first has no text if nothing helps.
+std::vector<Advice> advice_on(const std::vector<Hindrances::Description>& reasons,
+                              const Simplify_request& request, const Prepared_soup& prepared,
+                              const Simplified_soup& result)
 {
-  const Simplify_report& report = result.report;
-  const Hindrances& hindrances = report.hindrances;
-  if (hindrances.total() == 0)
-    return "all faces left are fixed; no option helps";
-  const std::size_t at_target = hindrances[Hindrance::target], total = hindrances.total() - at_target;
-  if (total == 0)
-    return "all edges left are held by parts at their target; no option helps";
-  constexpr std::size_t least_named = 3; // and as many as make two thirds of the edges
-  std::string text =
-      "of " + counted(total, "edge") + " left" + (at_target > 0 ? " in parts above their target" : "") +
-      (report.faces_within_reach > 0 ? " at " + counted(report.faces_within_reach, "face") : "") + ", ";
-  std::vector<Hindrances::Description> all = reasons(hindrances);
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const auto& description) { return description.reason == Hindrance::target; }),
-            all.end());
-  std::size_t others = total;
-  for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > total); ++i) {
-    const std::size_t count = hindrances[all[i].reason];
-    text += (i == 0 ? "" : ", ") + (count == total ? "all" : with_commas(count)) + " by " + all[i].name;
-    others -= count;
-  }
-  if (others > 0)
-    text += ", " + with_commas(others) + " by other rules";
-  const Estimate estimate(report);
+  const Hindrances& hindrances = result.report.hindrances;
+  const Estimate estimate(result.report);
   std::vector<Advice> advice{seams_to_let_gape(request, prepared, hindrances, estimate),
-                             options_against(all, request, result, estimate)};
+                             options_against(reasons, request, result, estimate)};
   const auto gains_less = [](const Advice& a, const Advice& b) { return a.gain < b.gain; };
   // Whoever leaves out an attribute loses more than shape, so it has to gain more, and twice that to come
   // first.
@@ -373,6 +311,45 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   }
   std::stable_sort(advice.begin(), advice.end(),
                    [&](const Advice& a, const Advice& b) { return gains_less(b, a); });
+  return advice;
+}
+
+/// Names three reasons, or as many as make two thirds of the edges, and counts what others hold.
+std::string main_reasons(const std::vector<Hindrances::Description>& reasons, const Hindrances& hindrances)
+{
+  constexpr std::size_t least_named = 3;
+  const std::size_t total = hindrances.total();
+  std::size_t others = total;
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < reasons.size() && (i < least_named || 3 * others > total); ++i) {
+    const std::size_t count = hindrances[reasons[i].reason];
+    named.push_back((count == total ? "all" : with_commas(count)) + " by " + reasons[i].name);
+    others -= count;
+  }
+  if (others > 0)
+    named.push_back(with_commas(others) + " by other rules");
+  return listed(named, named.size());
+}
+
+} // namespace
+
+std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
+                      const Simplified_soup& result)
+{
+  const Simplify_report& report = result.report;
+  if (report.hindrances.total() == 0)
+    return "all faces left are fixed; no option helps";
+  Hindrances hindrances = report.hindrances;
+  hindrances[Hindrance::target] = 0;
+  if (hindrances.total() == 0)
+    return "all edges left are held by parts at their target; no option helps";
+  const std::vector<Hindrances::Description> all = reasons(hindrances);
+  std::string text =
+      "of " + counted(hindrances.total(), "edge") + " left" +
+      (report.hindrances[Hindrance::target] > 0 ? " in parts above their target" : "") +
+      (report.faces_within_reach > 0 ? " at " + counted(report.faces_within_reach, "face") : "") + ", " +
+      main_reasons(all, hindrances);
+  const std::vector<Advice> advice = advice_on(all, request, prepared, result);
   if (advice[0].text.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
   for (const Advice& piece : advice)
@@ -383,68 +360,6 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
 std::string most_frequent_reason(const Hindrances& hindrances)
 {
   return reasons(hindrances)[0].name;
-}
-
-std::string what_shape_takes(const Simplify_request& request, const Simplify_report& report,
-                             const Distance& distance)
-{
-  const std::size_t faces = report.faces_output, within_reach = report.faces_within_reach;
-  if (within_reach > 0 && within_reach < faces)
-    return "\nkept: " + counted(faces - within_reach, "face") +
-           " that could go, because all that nothing holds would be flattened for them;" +
-           options_without_shape(request, report) + " lets them go" +
-           what_lines_lose(request.options, report);
-  const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
-  if (is_shape_kept(request) || !is_asked_for_target ||
-      !Missed_target::is_flattened(request.options, distance))
-    return "";
-  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*request.options.max_error) +
-         " allows; a ratio that is larger by a tenth keeps more of its shape";
-}
-
-std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplify_report& report)
-{
-  constexpr double hardly_enough = 8;
-  const double pieces = double(part_kinds(prepared.soup).front().count);
-  if (pieces < 2 || report.faces_target == 0)
-    return "";
-  const std::optional<Small_pieces> small = small_pieces(prepared.soup);
-  if (double(report.faces_target) <= hardly_enough * pieces)
-    return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
-           " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes" +
-           (small ? "; --drop-smaller " + small->length + " leaves out the small ones, " +
-                        with_commas(small->count) + " with " + counted(small->triangles, "face")
-                  : "");
-  if (!small || 2 * small->triangles < prepared.soup.triangles.size())
-    return "";
-  return "\npieces: " + with_commas(small->count) + " small ones have " + with_commas(small->triangles) +
-         " of the faces of the input, and none of them vanishes; --drop-smaller " + small->length +
-         " leaves them out";
-}
-
-std::string what_texture_takes(const Simplify_request& request, const Triangle_soup& soup)
-{
-  constexpr std::size_t most_vertices = 100000; // in meshes that have more, few are on seams
-  if (soup.uvs.empty() || soup.points.size() > most_vertices)
-    return "";
-  std::vector<std::pair<Point_3, std::array<double, 2>>> values; // of all corners, each once
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      values.emplace_back(soup.points[soup.triangles[t][k]], soup.uvs.values[soup.uvs.of_triangle[t][k]]);
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  std::size_t positions = 0, on_seams = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool is_first = i == 0 || values[i - 1].first != values[i].first;
-    positions += is_first;
-    on_seams += is_first && i + 1 < values.size() && values[i + 1].first == values[i].first;
-  }
-  if (2 * on_seams <= positions)
-    return "";
-  return "\ntexture: " + with_commas(on_seams) + " of " + counted(positions, "vertex", "vertices") +
-         " left lie on its seams, which keep their course; " +
-         (request.options.max_seam_turn < 180 ? "--seam-turn 180 lets them go straighter, " : "") +
-         "--drop-attribute texture lets them go, if it is baked anew";
 }
 
 } // namespace selvedge::app

@@ -8,6 +8,7 @@
 #include "doubtful_units.h"
 #include "fate_of_limit.h"
 #include "output_files.h"
+#include "price_of_target.h"
 #include "standard_streams.h"
 #include "text.h"
 

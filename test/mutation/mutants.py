@@ -1761,5 +1761,6 @@ group("apps/advice.cpp", ("cli_test:App_simplify.*",),
       ("    return edges / 2;", "    return edges;", "later rules are forgotten"),
       ("    others -= count;\n", "", "reasons that are named count as others, too"),
       ("count == total ? \"all\" : ", "", "all is a number"),
-      ("    return \"--instances apart\";", "    return \"\";", "what reducing places apart gains is not said"),
+      ("    return \"--instances apart\";", "    return \"\";", "what reducing places apart gains is not said"))
+group("apps/price_of_target.cpp", ("cli_test:App_simplify.*",),
       ("  if (2 * on_seams <= positions)", "  if (true)", "nobody is told that seams of the texture take the vertices"))
