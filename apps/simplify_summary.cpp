@@ -22,7 +22,6 @@
 #include <ostream>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace selvedge::app {
@@ -435,10 +434,9 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   print_border_gaps(stream, request, prepared, diagonal);
   if (prepared.snapping.distance > 0)
     print_snapping(stream, prepared.snapping, prepared.tied.size());
-  const char* separator = "  not in the output, because its format cannot hold them: ";
-  for (const std::string& what : dropped)
-    stream << std::exchange(separator, ", ") << what;
-  stream << (dropped.empty() ? "" : "\n");
+  if (!dropped.empty())
+    stream << "  not in the output, because its format cannot hold them: " << listed(dropped, dropped.size())
+           << '\n';
   if (!references.empty())
     stream << "  files beside the input are named from the output's folder: " << listed(references) << '\n';
 }

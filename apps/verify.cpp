@@ -70,6 +70,38 @@ void print(const char* what, const Line_comparison& lines)
   std::cout << '\n';
 }
 
+void print(const Layer_order& layers, bool are_all_vertices_known)
+{
+  if (layers.crossing == 0) {
+    std::cout << "layers: none near enough to another to change places with it (none of "
+              << counted(layers.lines, "line") << " through the faces crosses two)\n";
+  } else if (layers.compared == 0 && 100 * layers.crossing <= layers.lines) {
+    std::cout << "layers: hardly any close to another (of " << counted(layers.lines, "line")
+              << " through the faces, " << with_commas(layers.crossing)
+              << " cross two, and find neither in the result)\n";
+  } else if (layers.compared == 0) {
+    std::cout << "layers: could not be compared (" << counted(layers.crossing, "line")
+              << " cross two or more, but none finds them in the result)\n";
+  } else if (layers.swaps.empty()) {
+    std::cout << "layers: no two changed places (compared along " << counted(layers.lines_compared, "line")
+              << ")\n";
+  } else {
+    const Layer_swap& first = layers.swaps.front();
+    std::cout << "layers CHANGED PLACES: " << with_commas(layers.swaps.size()) << " of "
+              << counted(layers.compared, "pair") << " compared along "
+              << counted(layers.lines_compared, "line") << "; the first: triangles "
+              << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
+              << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
+    if (!are_all_vertices_known)
+      std::cout << "  not all vertices are those of the original, so that a few may be taken for those of "
+                   "another layer; replay of a log tells for certain\n";
+  }
+  if (const std::size_t count = layers.without_order; count > 0)
+    std::cout << "  " << counted(count, "pair")
+              << " of layers changed places where they intersect nearby in the "
+              << "original, and so have no order\n";
+}
+
 void print(const Verification& verification, const Comparison& comparison)
 {
   const Distances& distances = *verification.distances;
@@ -109,13 +141,8 @@ void print(const Verification& verification, const Comparison& comparison)
                 << (attribute.name == "normal" || attribute.name == "TANGENT"
                         ? " values are not the original's, as where they were fitted to new faces\n"
                         : " values are NOT the original's\n");
-  if (!comparison.lost_attributes.empty()) {
-    std::cout << "attributes LOST:";
-    const char* separator = " ";
-    for (const std::string& name : comparison.lost_attributes)
-      std::cout << std::exchange(separator, ", ") << name;
-    std::cout << '\n';
-  }
+  if (const std::vector<std::string>& lost = comparison.lost_attributes; !lost.empty())
+    std::cout << "attributes LOST: " << listed(lost, lost.size()) << '\n';
 
   const Normal_deviation& normals = comparison.normals;
   std::cout << "normals: turned by " << with_digits(normals.mean) << "° on average, "
@@ -125,38 +152,18 @@ void print(const Verification& verification, const Comparison& comparison)
     std::cout << "; " << with_digits(100 * normals.turned) << " % of the area turned over";
   std::cout << '\n';
 
-  const Layer_order& layers = comparison.layers;
-  if (layers.crossing == 0) {
-    std::cout << "layers: none near enough to another to change places with it (none of "
-              << counted(layers.lines, "line") << " through the faces crosses two)\n";
-  } else if (layers.compared == 0 && 100 * layers.crossing <= layers.lines) {
-    std::cout << "layers: hardly any close to another (of " << counted(layers.lines, "line")
-              << " through the faces, " << with_commas(layers.crossing)
-              << " cross two, and find neither in the result)\n";
-  } else if (layers.compared == 0) {
-    std::cout << "layers: could not be compared (" << counted(layers.crossing, "line")
-              << " cross two or more, but none finds them in the result)\n";
-  } else if (layers.swaps.empty()) {
-    std::cout << "layers: no two changed places (compared along " << counted(layers.lines_compared, "line")
-              << ")\n";
-  } else {
-    const Layer_swap& first = layers.swaps.front();
-    std::cout << "layers CHANGED PLACES: " << with_commas(layers.swaps.size()) << " of "
-              << counted(layers.compared, "pair") << " compared along "
-              << counted(layers.lines_compared, "line") << "; the first: triangles "
-              << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
-              << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
-    if (comparison.share_of_original_vertices() < 1)
-      std::cout << "  not all vertices are those of the original, so that a few may be taken for those of "
-                   "another layer; replay of a log tells for certain\n";
-  }
-  if (const std::size_t count = layers.without_order; count > 0)
-    std::cout << "  " << counted(count, "pair")
-              << " of layers changed places where they intersect nearby in the "
-              << "original, and so have no order\n";
+  print(comparison.layers, comparison.share_of_original_vertices() == 1);
 }
 
-constexpr std::size_t named = 5;
+/// Prints a line for each of the first few of a list, and how many more there are.
+template <class Element, class Line_of>
+void print_first(const std::vector<Element>& list, const Line_of& line_of)
+{
+  for (std::size_t i = 0; i < (std::min)(list.size(), most_printed); ++i)
+    std::cout << "  " << line_of(list[i]) << '\n';
+  if (list.size() > most_printed)
+    std::cout << "  and " << with_commas(list.size() - most_printed) << " more\n";
+}
 
 void print(const Piece_matching& matching)
 {
@@ -172,10 +179,7 @@ void print(const Piece_matching& matching)
       separator = ", ";
     }
   std::cout << '\n';
-  for (std::size_t i = 0; i < (std::min)(matching.mismatches.size(), named); ++i)
-    std::cout << "  " << matching.mismatches[i].message << '\n';
-  if (matching.mismatches.size() > named)
-    std::cout << "  and " << with_commas(matching.mismatches.size() - named) << " more\n";
+  print_first(matching.mismatches, [](const Piece_mismatch& mismatch) { return mismatch.message; });
 }
 
 void print(const Clearance_verdict& verdict, const Triangle_soup& mesh)
@@ -185,17 +189,12 @@ void print(const Clearance_verdict& verdict, const Triangle_soup& mesh)
     return triangle < mesh.triangles.size() ? "that of triangle " + with_commas(triangle + 1)
                                             : std::string("the obstacle");
   };
-  for (std::size_t i = 0; i < (std::min)(verdict.near.size(), named); ++i) {
-    const Near_pieces& pair = verdict.near[i];
-    std::cout << "  " << piece(pair.first) << " and " << piece(pair.second) << ": "
-              << with_digits(pair.now.lower, "%.6g");
-    if (verdict.least_of_original)
-      std::cout << ", and was " << with_digits(pair.before.lower, "%.6g")
-                << (pair.is_too_near ? ": TOO NEAR" : "");
-    std::cout << '\n';
-  }
-  if (verdict.near.size() > named)
-    std::cout << "  and " << with_commas(verdict.near.size() - named) << " more\n";
+  print_first(verdict.near, [&](const Near_pieces& pair) {
+    const std::string before =
+        ", and was " + with_digits(pair.before.lower, "%.6g") + (pair.is_too_near ? ": TOO NEAR" : "");
+    return piece(pair.first) + " and " + piece(pair.second) + ": " + with_digits(pair.now.lower, "%.6g") +
+           (verdict.least_of_original ? before : "");
+  });
 }
 
 void print_pairs_of_original(std::size_t pairs)
@@ -206,26 +205,10 @@ void print_pairs_of_original(std::size_t pairs)
                  "with a log\n";
 }
 
-void print(const Verify_request& request, const Mesh_file& mesh, const Triangle_soup& obstacle,
-           const Judgement& judgement, const std::vector<std::string>& cannot_see)
+/// Prints the offending pairs of the mesh in its own pose.
+void print_pairs(const Verify_request& request, const Verification& verification, std::size_t triangles)
 {
-  const auto& [verification, comparison] = judgement;
   const bool has_original = !request.original.empty();
-  std::size_t loops = 0;
-  long euler = 0;
-  for (const Piece& piece : verification.pieces) {
-    loops += piece.boundary_loops;
-    euler += piece.euler_characteristic;
-  }
-  std::cout << input_name(request.mesh) << ": " << counted(mesh.soup.triangles.size(), "face") << ", "
-            << counted(verification.pieces.size(), "piece") << ", " << counted(loops, "boundary loop")
-            << ", Euler characteristic " << euler << '\n';
-  for (const std::string& note : describe(mesh.notes))
-    std::cout << "  " << note << '\n';
-  if (!request.obstacle.empty())
-    if (const std::string doubt = doubt_of_obstacle(mesh.soup, obstacle); !doubt.empty())
-      std::cout << "  obstacle: " << doubt << '\n';
-
   for (const Verification::Permitted& parts : verification.permitted)
     std::cout << "may intersect: " << counted(parts.pairs, "pair") << " between '" << parts.first << "' and '"
               << parts.second << "', which no other figure counts\n";
@@ -241,58 +224,86 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Triangle_
     std::cout << '\n';
     const auto& pairs =
         has_original && !verification.new_pairs.empty() ? verification.new_pairs : verification.pairs;
-    for (std::size_t i = 0; i < (std::min)(pairs.size(), named); ++i)
-      std::cout << "  " << describe(pairs[i], mesh.soup.triangles.size()) << '\n';
-    if (pairs.size() > named)
-      std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
+    print_first(pairs, [&](const Offending_pair& pair) { return describe(pair, triangles); });
     if (!verification.new_pairs.empty())
       print_pairs_of_original(verification.pairs_of_original);
   }
+}
+
+void print_pose(const Verification::In_pose& pose, const Triangle_soup& mesh, bool has_original)
+{
+  if (pose.clearance) {
+    std::cout << "in pose '" << pose.name << "', ";
+    print(*pose.clearance, mesh);
+  }
+  std::cout << "pose '" << pose.name << "': ";
+  if (pose.pairs.empty()) {
+    std::cout << "embedded\n";
+    return;
+  }
+  std::cout << counted(pose.pairs.size(), "offending pair");
+  if (has_original)
+    std::cout << ", " << with_commas(pose.new_pairs.size()) << " of them not in the original";
+  std::cout << ", the first: "
+            << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front(),
+                        mesh.triangles.size())
+            << '\n';
+  if (!pose.new_pairs.empty())
+    print_pairs_of_original(pose.pairs_of_original);
+}
+
+void print_original(const Verification& verification, const Comparison& comparison,
+                    const std::vector<std::string>& cannot_see)
+{
+  if (verification.is_original_rounded)
+    std::cout << "the original was rounded to 32-bit floats before the comparison, because the result "
+                 "stores only these\n";
+  print(verification.matching);
+  const std::vector<Piece_mismatch>& mismatches = verification.matching.mismatches;
+  const bool is_changed =
+      std::any_of(mismatches.begin(), mismatches.end(), [](const Piece_mismatch& mismatch) {
+        return mismatch.what == Mismatch::missing || mismatch.what == Mismatch::added ||
+               mismatch.what == Mismatch::topology;
+      });
+  std::cout << (verification.same_topology() ? "topology: as in the original\n"
+                : is_changed                 ? "topology CHANGED:\n"
+                                             : "topology: the files number vertices differently:\n");
+  for (const Topology_difference& difference : verification.topology_differences)
+    std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
+              << " and Euler characteristic " << difference.euler_characteristic << ": "
+              << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
+  print(verification, comparison);
+  std::cout << "what this cannot see:\n";
+  for (const std::string& line : cannot_see)
+    std::cout << "  - " << line << '\n';
+}
+
+void print(const Verify_request& request, const Mesh_file& mesh, const Triangle_soup& obstacle,
+           const Judgement& judgement, const std::vector<std::string>& cannot_see)
+{
+  const auto& [verification, comparison] = judgement;
+  std::size_t loops = 0;
+  long euler = 0;
+  for (const Piece& piece : verification.pieces) {
+    loops += piece.boundary_loops;
+    euler += piece.euler_characteristic;
+  }
+  std::cout << input_name(request.mesh) << ": " << counted(mesh.soup.triangles.size(), "face") << ", "
+            << counted(verification.pieces.size(), "piece") << ", " << counted(loops, "boundary loop")
+            << ", Euler characteristic " << euler << '\n';
+  for (const std::string& note : describe(mesh.notes))
+    std::cout << "  " << note << '\n';
+  if (!request.obstacle.empty())
+    if (const std::string doubt = doubt_of_obstacle(mesh.soup, obstacle); !doubt.empty())
+      std::cout << "  obstacle: " << doubt << '\n';
+
+  print_pairs(request, verification, mesh.soup.triangles.size());
   if (verification.clearance)
     print(*verification.clearance, mesh.soup);
-  for (const Verification::In_pose& pose : verification.poses) {
-    if (pose.clearance) {
-      std::cout << "in pose '" << pose.name << "', ";
-      print(*pose.clearance, mesh.soup);
-    }
-    std::cout << "pose '" << pose.name << "': ";
-    if (pose.pairs.empty()) {
-      std::cout << "embedded\n";
-      continue;
-    }
-    std::cout << counted(pose.pairs.size(), "offending pair");
-    if (has_original)
-      std::cout << ", " << with_commas(pose.new_pairs.size()) << " of them not in the original";
-    std::cout << ", the first: "
-              << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front(),
-                          mesh.soup.triangles.size())
-              << '\n';
-    if (!pose.new_pairs.empty())
-      print_pairs_of_original(pose.pairs_of_original);
-  }
-  if (has_original) {
-    if (verification.is_original_rounded)
-      std::cout << "the original was rounded to 32-bit floats before the comparison, because the result "
-                   "stores only these\n";
-    print(verification.matching);
-    const std::vector<Piece_mismatch>& mismatches = verification.matching.mismatches;
-    const bool is_changed =
-        std::any_of(mismatches.begin(), mismatches.end(), [](const Piece_mismatch& mismatch) {
-          return mismatch.what == Mismatch::missing || mismatch.what == Mismatch::added ||
-                 mismatch.what == Mismatch::topology;
-        });
-    std::cout << (verification.same_topology() ? "topology: as in the original\n"
-                  : is_changed                 ? "topology CHANGED:\n"
-                                               : "topology: the files number vertices differently:\n");
-    for (const Topology_difference& difference : verification.topology_differences)
-      std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
-                << " and Euler characteristic " << difference.euler_characteristic << ": "
-                << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
-    print(verification, *comparison);
-    std::cout << "what this cannot see:\n";
-    for (const std::string& line : cannot_see)
-      std::cout << "  - " << line << '\n';
-  }
+  for (const Verification::In_pose& pose : verification.poses)
+    print_pose(pose, mesh.soup, comparison.has_value());
+  if (comparison)
+    print_original(verification, *comparison, cannot_see);
   std::cout << std::flush;
 }
 
