@@ -15,21 +15,13 @@
 #include "threads_option.h"
 
 #include <string>
-namespace selvedge::app {
 
-void add_options(CLI::App& command, Simplify_request& request)
+namespace selvedge::app {
+namespace {
+
+void add_options_of_targets(CLI::App& command, Simplify_request& request)
 {
   Simplify_options& options = request.options;
-  command.add_option("IN", request.input, std::string("Mesh to reduce: ") + mesh_endings + ".")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("-o,--output", request.output,
-                  "File to write; its ending chooses the format. It may be IN.")
-      ->required()
-      ->type_name("FILE");
-  add_format_option(command, request.format);
-
   const char* const how_far =
       "How far to reduce (with several of these, the reduction stops at the first one that is met)";
   command
@@ -98,7 +90,10 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("auto|vertices|optimal")
       ->default_str("auto")
       ->group(how_far);
+}
 
+void add_options_of_parts(CLI::App& command, Simplify_request& request)
+{
   const char* const parts = "Parts (PART names a group, an object, a material, or a property of 0 and 1 of "
                             "the faces of a PLY file; 'button*' names all that begin so)";
   command
@@ -144,7 +139,10 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("shared|apart")
       ->default_str("shared")
       ->group(parts);
+}
 
+void add_options_of_poses(CLI::App& command, Simplify_request& request)
+{
   const char* const poses =
       "Poses (the same vertices and faces at other places, such as frames of an animation)";
   add_pose_options(
@@ -175,7 +173,11 @@ void add_options(CLI::App& command, Simplify_request& request)
           "another by morph targets.")
       ->type_name("PATTERN")
       ->group(poses);
+}
 
+void add_options_of_limits(CLI::App& command, Simplify_request& request)
+{
+  Simplify_options& options = request.options;
   const char* const limits = "Limits of a collapse";
   command
       .add_option("--normal-change", options.max_normal_change,
@@ -239,7 +241,10 @@ void add_options(CLI::App& command, Simplify_request& request)
                 "result is "
                 "not verified.")
       ->group(limits);
+}
 
+void add_options_of_seams(CLI::App& command, Simplify_request& request)
+{
   const char* const seams = "Seams";
   command
       .add_option("--weld", request.weld,
@@ -297,7 +302,11 @@ void add_options(CLI::App& command, Simplify_request& request)
                         "gives it. For textures that are baked anew, and those of which every face has its "
                         "own piece.")
       ->group(seams);
+}
 
+void add_options_of_tuning(CLI::App& command, Simplify_request& request)
+{
+  Simplify_options& options = request.options;
   const char* const tuning = "Tuning";
   command
       .add_option("--index", options.index,
@@ -348,7 +357,10 @@ void add_options(CLI::App& command, Simplify_request& request)
       "none, smooth ones, as viewers shade it. More keeps the shading truer, and the shape less so.");
   add_weight("--border-weight", options.cost.border_weight,
              "Weight of borders, and of edges over which the surface folds, in the cost.");
+}
 
+void add_options_of_conduct(CLI::App& command, Simplify_request& request)
+{
   const char* const conduct = "Conduct";
   command
       .add_option(
@@ -385,6 +397,29 @@ void add_options(CLI::App& command, Simplify_request& request)
   command.add_flag("--quiet", request.is_quiet, "Print no summary and no progress bar.")->group(conduct);
   add_ascii_option(command, request.is_ascii)->group(conduct);
   add_polygons_option(command, request.are_polygons_split)->group(conduct);
+}
+
+} // namespace
+
+void add_options(CLI::App& command, Simplify_request& request)
+{
+  command.add_option("IN", request.input, std::string("Mesh to reduce: ") + mesh_endings + ".")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("-o,--output", request.output,
+                  "File to write; its ending chooses the format. It may be IN.")
+      ->required()
+      ->type_name("FILE");
+  add_format_option(command, request.format);
+
+  add_options_of_targets(command, request);
+  add_options_of_parts(command, request);
+  add_options_of_poses(command, request);
+  add_options_of_limits(command, request);
+  add_options_of_seams(command, request);
+  add_options_of_tuning(command, request);
+  add_options_of_conduct(command, request);
 
   command.footer(
       "Examples:\n"
