@@ -368,35 +368,8 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
   }
   mix_influences([this](const Share& share) { return own_row(vertex_of(share.corner)); }, shares, own,
                  result);
-  if (m_soup.scene) {
-    const auto row_of = [this](const Share& share) { return scene_row(share.corner); };
-    mix_influences(row_of, shares, own, result);
-    const Table& table = *row_of(own).table;
-    const Column* const normal = table.find("NORMAL", 3);
-    const Column* const tangent = table.find("TANGENT", 4);
-    const auto direction = [&](const Column& column) {
-      const double* const numbers = result.data() + column.first;
-      return std::array<double, 3>{numbers[0], numbers[1], numbers[2]};
-    };
-    const auto set = [&](const Column& column, const std::array<double, 3>& numbers) {
-      std::copy(numbers.begin(), numbers.end(), result.begin() + std::ptrdiff_t(column.first));
-    };
-    // Gives a direction the length 1. What morph targets add to it is turned and scaled with it.
-    const auto finish = [&](const Column& column, const std::array<double, 3>& before) {
-      normalize(column, numbers_of_own, result);
-      for (const Column& added : table.columns)
-        if (added.target != s_none && added.name == column.name && added.components == 3)
-          set(added, turned(direction(added), before, direction(column)));
-    };
-    if (normal)
-      finish(*normal, direction(*normal));
-    if (tangent) {
-      const std::array<double, 3> before = direction(*tangent);
-      if (normal)
-        set(*tangent, perpendicular(before, direction(*normal)));
-      finish(*tangent, before);
-    }
-  }
+  if (m_soup.scene)
+    complete_scene(shares, own, numbers_of_own, result);
   for (std::size_t i = 0; i < result.size(); ++i)
     if (!std::isfinite(result[i]))
       result[i] = numbers_of_own[i];
@@ -415,6 +388,40 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
       std::copy(normal.begin(), normal.end(), result.begin() + std::ptrdiff_t(m_first_of_normal));
     }
   return result;
+}
+
+// Mixes the weights of joints in the scene, and completes its normals and tangents and what morph targets add
+// to them.
+void Vertex_values::complete_scene(const Shares& shares, const Share& own, const Numbers& numbers_of_own,
+                                   Numbers& numbers) const
+{
+  const auto row_of = [this](const Share& share) { return scene_row(share.corner); };
+  mix_influences(row_of, shares, own, numbers);
+  const Table& table = *row_of(own).table;
+  const Column* const normal = table.find("NORMAL", 3);
+  const Column* const tangent = table.find("TANGENT", 4);
+  const auto direction = [&](const Column& column) {
+    const double* const first = numbers.data() + column.first;
+    return std::array<double, 3>{first[0], first[1], first[2]};
+  };
+  const auto set = [&](const Column& column, const std::array<double, 3>& xyz) {
+    std::copy(xyz.begin(), xyz.end(), numbers.begin() + std::ptrdiff_t(column.first));
+  };
+  // Gives a direction the length 1. What morph targets add to it is turned and scaled with it.
+  const auto finish = [&](const Column& column, const std::array<double, 3>& before) {
+    normalize(column, numbers_of_own, numbers);
+    for (const Column& added : table.columns)
+      if (added.target != s_none && added.name == column.name && added.components == 3)
+        set(added, turned(direction(added), before, direction(column)));
+  };
+  if (normal)
+    finish(*normal, direction(*normal));
+  if (tangent) {
+    const std::array<double, 3> before = direction(*tangent);
+    if (normal)
+      set(*tangent, perpendicular(before, direction(*normal)));
+    finish(*tangent, before);
+  }
 }
 
 // Gives a direction the length 1, or that of which its integers are fractions. The sign at the end of a

@@ -168,6 +168,8 @@ private:
   static double stored(const Column& column, double number, std::size_t component);
   static void write(const Column& column, std::size_t component, double number, void* row);
   static void write(const Column& column, const double* numbers, void* row);
+  void complete_scene(const Shares& shares, const Share& own, const Numbers& numbers_of_own,
+                      Numbers& numbers) const;
   static void normalize(const Column& column, const Numbers& own, Numbers& numbers);
   template <class Row_of>
   static void mix_influences(const Row_of& row_of, const Shares& shares, const Share& own, Numbers& numbers);

@@ -122,6 +122,27 @@ void leave_out_pairs_of_obstacle(const Triangle_soup& mesh, std::vector<Offendin
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_of_obstacle), pairs.end());
 }
 
+// Judges the clearance in every pose, between pieces as they are matched.
+void judge_clearances(const Triangle_soup& result, const Triangle_soup& original,
+                      const Verify_options& options, const Triangle_soup& obstacle,
+                      Verification& verification)
+{
+  const internal::Numbered_pieces of_result = internal::numbered_pieces(result),
+                                  of_original = internal::numbered_pieces(original);
+  const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
+    return internal::judge_clearance(*options.clearance, after, before,
+                                     internal::matched_pieces(after, before, of_result, of_original,
+                                                              verification.matching,
+                                                              options.triangles_of_original));
+  };
+  verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
+                                              geometry_with_obstacle(original, obstacle));
+  internal::for_each_pose(result.poses.size(), [&](std::size_t pose) {
+    verification.poses[pose].clearance = judge_clearance_of(geometry_in_pose(result, obstacle, pose),
+                                                            geometry_in_pose(original, obstacle, pose));
+  });
+}
+
 } // namespace
 
 bool are_between(const std::vector<char>& first, const std::vector<char>& second, Index a, Index b)
@@ -263,22 +284,8 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
       }),
       Cancellation_scope::inherited(
           [&] { verification.matching = match_pieces(result, original, options); }));
-  if (options.clearance) {
-    const internal::Numbered_pieces of_result = internal::numbered_pieces(result),
-                                    of_original = internal::numbered_pieces(original);
-    const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
-      return internal::judge_clearance(*options.clearance, after, before,
-                                       internal::matched_pieces(after, before, of_result, of_original,
-                                                                verification.matching,
-                                                                options.triangles_of_original));
-    };
-    verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
-                                                geometry_with_obstacle(original, obstacle));
-    internal::for_each_pose(result.poses.size(), [&](std::size_t pose) {
-      verification.poses[pose].clearance = judge_clearance_of(geometry_in_pose(result, obstacle, pose),
-                                                              geometry_in_pose(original, obstacle, pose));
-    });
-  }
+  if (options.clearance)
+    judge_clearances(result, original, options, obstacle, verification);
   verification.pieces = verification.matching.pieces_of_result;
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);

@@ -442,7 +442,7 @@ group(
     ("if (number(joints, row.number, i) == joint)", "if (number(joints, own_row.number, i) == joint)",
      "weights are mixed by their places, not by their joints"),
     ("if (users[instance.block] > 1) {", "if (false) {", "nodes that share a mesh share new places"),
-    ("normalize(column, numbers_of_own, result);", "normalize(column, result, result);", "the sign of a tangent is mixed"),
+    ("normalize(column, numbers_of_own, numbers);", "normalize(column, numbers, numbers);", "the sign of a tangent is mixed"),
     ("return component == 0 ? result : 1 - result;", "return result;", "texture upside down"),
 )
 for file, *entry in (
