@@ -42,13 +42,14 @@ struct Simplify_report
   /// are possible, for which `hindrances` are. Otherwise 0.
   std::size_t faces_within_reach = 0;
 
-  /// Limits of lines, as in `Simplify_options`.
   struct Line_limits
   {
-    double border_turn = 0, border_drift = 0;
+    double border_turn = 0;  ///< `Simplify_options::max_border_turn`
+    double border_drift = 0; ///< `Simplify_options::max_border_drift`
   };
   /// Where the caller has eased lines, too (`Missed_target`): the limits to which it reduced.
   std::optional<Line_limits> eased_lines;
+
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place
   std::size_t left_alone = 0; ///< vertices whose partners have gone without them; see `Prepared_soup::tied`

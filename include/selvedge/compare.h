@@ -22,10 +22,11 @@ namespace selvedge {
 /// Returns bounds of the largest distance from any point of the triangles of `from` to the nearest point of
 /// the triangles of `to`, in the unit of the coordinates.
 ///
-/// **Guarantees** `lower` is the distance of a point that was looked at. `upper` exceeds `lower` by at most a
-/// hundredth of it, or by a millionth of the longest side of the bounding box of `from` when that is more.
 /// Given the bounds of other pairs of meshes, such as these two in another pose, it returns bounds of the
 /// largest distance of them all, and looks for no point that is nearer than one known already.
+///
+/// **Guarantees** `lower` is the distance of a point that was looked at. `upper` exceeds `lower` by at most a
+/// hundredth of it, or by a millionth of the longest side of the bounding box of `from` when that is more.
 /// When `from.triangles.size() + 500'000` points do not suffice for this (or fewer, where the search for the
 /// nearest triangle meets thousands), `upper` is the best bound that is known. Both are zero when `from` has
 /// no triangle, and infinite when only `to` has none.
@@ -38,8 +39,8 @@ namespace selvedge {
 /// general polygonal models*, 2009.
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to, const Bounds& of_others = {0, 0});
 
-/// Returns whether some point of `from` is farther from `to` than a share of the diagonal of `to`, as far as
-/// `maximum_distance` knows. It takes less time, for what is nearer is not looked at.
+/// Returns whether some point of `from` is farther from `to` than a share of the diagonal of `to` (at least
+/// 0), as far as `maximum_distance` knows. It takes less time, for what is nearer is not looked at.
 bool is_farther(const Triangle_soup& from, const Triangle_soup& to, double share);
 
 /// Bounds of the largest distance of all poses, and the further pose in which the farthest point that was
