@@ -14,7 +14,6 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
-#include <selvedge/Sha256.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
@@ -24,7 +23,6 @@
 #include <atomic>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>

@@ -14,7 +14,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 

@@ -3,7 +3,6 @@
 
 #include "Local_normals.h"
 
-#include "Byte_writer.h"
 #include "gltf_encoding.h"
 #include "soup/flat_shading.h"
 #include "soup/gltf_transforms.h"

@@ -5,7 +5,6 @@
 
 #include <selvedge/Cancellation_scope.h>
 
-#include <algorithm>
 #include <cmath>
 
 // Copies rows of numbers out of the buffers of a glTF file, and checks that the file has them.

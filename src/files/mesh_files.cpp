@@ -20,8 +20,6 @@
 #include "soup/selection.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <sstream>
 #include <utility>
 #include <vector>

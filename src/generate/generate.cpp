@@ -6,7 +6,6 @@
 
 #include "generate/scenes.h"
 
-#include <cmath>
 #include <sstream>
 
 // Makes a mesh by the name of its scene. Generated meshes take the place of a file that is read.

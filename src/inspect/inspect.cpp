@@ -16,7 +16,6 @@
 #include <selvedge/suited_normals.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

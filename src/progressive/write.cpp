@@ -13,7 +13,6 @@
 #include <selvedge/rounding.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <stdexcept>

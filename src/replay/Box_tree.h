@@ -11,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace selvedge::reference {

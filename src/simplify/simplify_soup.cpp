@@ -12,7 +12,6 @@
 #include "soup/fit_normals.h"
 #include "soup/fit_texture.h"
 #include "soup/obstacle.h"
-#include "soup/selection.h"
 #include "soup/texture.h"
 #include "soup/vertex_normals.h"
 #include "soup/vertex_weights.h"

@@ -11,7 +11,6 @@
 #include <selvedge/Surface_mesh_simplification/internal/Value_quadric.h>
 #include <selvedge/internal/Scale.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>

@@ -15,7 +15,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 

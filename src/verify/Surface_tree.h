@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 #include <vector>
 
 // The surface of a soup in a tree of boxes. `verify` and `compare` ask it for nearest points, and `compare`

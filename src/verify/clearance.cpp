@@ -16,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 // Finds how near the pieces of a mesh are to each other, and decides for `verify` whether that is too near.

@@ -8,7 +8,6 @@
 
 #include <selvedge/verify.h>
 
-#include <optional>
 #include <vector>
 
 namespace selvedge::internal {

@@ -10,7 +10,6 @@
 #include "soup/Disjoint_sets.h"
 #include "soup/surfaces_of.h"
 
-#include <selvedge/Cancellation_scope.h>
 
 #include <CGAL/Exact_rational.h>
 
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>

@@ -16,7 +16,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <cstddef>
-#include <utility>
 
 // Reductions by CGAL alone: its loop with its own policies, as its manual shows them, without a filter.
 

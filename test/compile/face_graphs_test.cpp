@@ -38,7 +38,6 @@
 
 #include <cstddef>
 #include <map>
-#include <type_traits>
 #include <vector>
 
 namespace selvedge::test {

@@ -17,7 +17,6 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <string>
 #include <vector>
 
 namespace selvedge::test {

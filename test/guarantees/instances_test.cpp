@@ -13,8 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace selvedge::test {

@@ -23,7 +23,6 @@
 #include <map>
 #include <random>
 #include <set>
-#include <string>
 #include <vector>
 
 namespace selvedge::test {

@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <random>
-#include <utility>
 
 namespace selvedge::test {
 namespace {

@@ -16,7 +16,6 @@
 #include <functional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace selvedge::test {

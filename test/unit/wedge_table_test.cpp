@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <vector>
 
 namespace selvedge::test {
 namespace {

@@ -4,7 +4,6 @@
 #include "judge_result.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>

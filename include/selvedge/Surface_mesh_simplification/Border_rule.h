@@ -17,7 +17,6 @@
 #include <boost/unordered_map.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -8,7 +8,6 @@
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace selvedge {

@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 
 #include <type_traits>
-#include <utility>
 
 namespace selvedge {
 

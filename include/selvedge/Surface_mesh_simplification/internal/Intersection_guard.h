@@ -20,7 +20,6 @@
 #include <selvedge/internal/exact_predicates.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>

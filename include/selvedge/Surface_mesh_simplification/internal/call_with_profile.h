@@ -5,7 +5,6 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_CALL_WITH_PROFILE_H
 
 #include <type_traits>
-#include <utility>
 
 namespace selvedge {
 namespace internal {

@@ -11,7 +11,6 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <type_traits>
-#include <utility>
 
 // `perform_collapse` is the one place where an edge is collapsed.
 
