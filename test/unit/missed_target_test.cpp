@@ -297,14 +297,14 @@ TEST(Missed_target, KeepsToLimitsOfLinesWhereALevelOrPartHasReachedItsTarget)
     EXPECT_TRUE(missed.advance(levels));
     return missed.options().max_border_turn == 180;
   };
-  EXPECT_TRUE(is_eased({{missing, at_most(0.01)}, {missing, at_most(0.01)}}));
+  EXPECT_TRUE(is_eased({{missing, at_most(0.01), s_nothing}, {missing, at_most(0.01), s_nothing}}));
   const Simplified_soup reached = result_of({{500, 500}});
-  EXPECT_FALSE(is_eased({{reached, at_most(0.001)}, {missing, at_most(0.01)}}));
+  EXPECT_FALSE(is_eased({{reached, at_most(0.001), s_nothing}, {missing, at_most(0.01), s_nothing}}));
   Simplified_soup parts = missing;
   parts.report.shares.push_back({1000, 0, 300, 300, 0});
-  EXPECT_FALSE(is_eased({{parts, at_most(0.01)}}));
+  EXPECT_FALSE(is_eased({{parts, at_most(0.01), s_nothing}}));
   parts.report.shares.back() = {300, 300, 300, 300, 0}; // cannot change
-  EXPECT_TRUE(is_eased({{parts, at_most(0.01)}}));
+  EXPECT_TRUE(is_eased({{parts, at_most(0.01), s_nothing}}));
 }
 
 // The fewest faces bound the targets of ratios, of levels and of numbers of faces, and cells do their part.
