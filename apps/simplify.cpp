@@ -236,6 +236,11 @@ private:
     for (const Simplified_soup& result : results)
       all.push_back(&result);
     m_seconds.add(m_input.prepared, all);
+    return levels_of(std::move(results));
+  }
+
+  std::vector<Level> levels_of(std::vector<Simplified_soup> results)
+  {
     const std::vector<std::string> names = outputs(m_request);
     m_seconds_of_levels.resize(results.size(), 0);
     const bool is_one_file = are_levels_in_one_file(m_request);
@@ -484,13 +489,7 @@ private:
     return html.page(m_report);
   }
 
-  std::string files_written() const
-  {
-    std::string result;
-    for (const std::string& name : m_files_written)
-      result += (result.empty() ? "" : ", ") + name;
-    return result;
-  }
+  std::string files_written() const { return listed(m_files_written, m_files_written.size()); }
 
   const Simplify_request& m_request;
   Progress_bar m_bar;
