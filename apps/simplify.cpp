@@ -157,8 +157,7 @@ private:
       return false;
     std::vector<Missed_target::Judged> judged;
     for (const Level& level : levels)
-      judged.push_back(
-          {level.result, level.verification.distances->original_to_result, m_input.prepared.soup});
+      judged.push_back({level.result, level.verification.distances->original_to_result, m_input.prepared});
     if (!m_missed_target->advance(judged))
       return false;
     m_first = {std::move(levels), m_outcome, m_log.str(), std::move(m_collapses)};

@@ -148,7 +148,7 @@ bool Reduction::is_to_be_repeated(const Reduction_request& request,
   if (missed_target) {
     std::vector<Missed_target::Judged> judged;
     for (const Level& level : m_levels)
-      judged.push_back({level.result, level.verification.distances->original_to_result, m_prepared.soup});
+      judged.push_back({level.result, level.verification.distances->original_to_result, m_prepared});
     return missed_target->advance(judged);
   }
   std::vector<Bounds_over_poses> largest;

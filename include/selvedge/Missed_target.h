@@ -29,7 +29,8 @@ namespace selvedge {
 /// corner while the head below loses its shape. So the second reduction *eases lines*: borders turn by any
 /// angle, and all lines drift farther, so that the cost, which counts what a line loses as it counts what a
 /// surface does, says more about where faces go. Seams turn no more, because there the texture would show
-/// what lies beside its charts.
+/// what lies beside its charts. Where gaps are held (`Prepared_soup::tied`, `facing`), no line is eased: as
+/// borders that turn and drift more leave each other, the gaps of a skirt at 2 % were twice as wide.
 ///
 /// A caller reduces with the options of `options()`, judges, hands the results to `advance`, and reduces
 /// again if this returns true. Then `complete` makes the second results those of the targets that were asked
@@ -44,7 +45,7 @@ public:
   {
     const Simplified_soup& result;
     const Distance& original_to_result;
-    const Triangle_soup& original;
+    const Prepared_soup& original;
   };
 
   /// Limits of lines that somebody has set, so that they stay. Any that is not the default counts as set.
@@ -77,24 +78,28 @@ public:
   /// most half of what went. Faces that cannot change do not count.
   ///
   /// In the next one, no level has more faces than one that has reached its target now. Where limits of lines
-  /// hold a fiftieth of the edges or more, they are eased, as far as nobody has set them, unless some level
-  /// or part has reached its target.
+  /// hold a fiftieth of the edges or more, they are eased, as far as nobody has set them, unless gaps are
+  /// held, or some level or part that can change is not to have more faces: it would be reduced further.
   bool advance(const std::vector<Judged>& levels)
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
     if (!m_first.empty() || std::any_of(levels.begin(), levels.end(), is_stopped))
       return is_not_due();
     std::vector<std::size_t> least;
-    for (const Judged& level : levels)
-      if (is_flattened(level))
+    bool may_ease_lines = true;
+    for (const Judged& level : levels) {
+      const bool is_due = is_flattened(level);
+      if (is_due)
         lower_to_missed(level.result.report.shares, least);
+      may_ease_lines &= is_due && is_held_by_lines(level.result.report) && !has_gaps_held(level.original);
+    }
     for (const Judged& level : levels)
       lower_to_reached(level.result.report.shares, least);
     std::replace(least.begin(), least.end(), s_none, std::size_t(0));
     if (std::all_of(least.begin(), least.end(), [](std::size_t faces) { return faces == 0; }))
       return is_not_due();
     m_options.least_faces = std::move(least);
-    if (std::all_of(levels.begin(), levels.end(), is_held_by_lines))
+    if (may_ease_lines)
       ease_lines();
     for (const Judged& level : levels)
       m_first.emplace_back(level.result);
@@ -128,7 +133,7 @@ private:
     const Shares& shares = level.result.report.shares;
     if (error == 0 || std::none_of(shares.begin(), shares.end(), is_missed)) // looking farther takes time
       return false;
-    return is_farther(level.result.soup, level.original, s_much * error);
+    return is_farther(level.result.soup, level.original.soup, s_much * error);
   }
 
   bool is_not_due()
@@ -137,17 +142,22 @@ private:
     return false;
   }
 
-  // Whether limits of lines hold a fiftieth of the edges or more, and no part has reached its target.
-  static bool is_held_by_lines(const Judged& level)
+  // Whether limits of lines hold a fiftieth of the edges or more, and all parts that can change are to have
+  // more faces.
+  static bool is_held_by_lines(const Simplify_report& report)
   {
-    const Shares& shares = level.result.report.shares;
-    const Hindrances& held = level.result.report.hindrances;
+    const Hindrances& held = report.hindrances;
     const std::size_t by_lines = held[Hindrance::border_turn] + held[Hindrance::drift];
     if (by_lines == 0 || 50 * by_lines < held.total() - held[Hindrance::target])
       return false;
-    return std::none_of(shares.begin(), shares.end(), [](const Simplify_report::Share& share) {
-      return share.excess() == 0 && share.input > share.fixed;
+    return std::all_of(report.shares.begin(), report.shares.end(), [](const Simplify_report::Share& share) {
+      return share.input == share.fixed || is_missed(share);
     });
+  }
+
+  static bool has_gaps_held(const Prepared_soup& original)
+  {
+    return !original.tied.empty() || !original.facing.empty();
   }
 
   void ease_lines()

@@ -14,7 +14,7 @@
 namespace selvedge::test {
 namespace {
 
-const Triangle_soup s_nothing; // from which nothing is far
+const Prepared_soup s_nothing; // from which nothing is far
 
 Simplify_options options_for_a_tenth()
 {
@@ -127,7 +127,8 @@ TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
 // Between the ends of the legs of a frame of thin strips, at which the vertices of the result all are.
 TEST(Missed_target, AsksForMoreFacesWhereSomethingOpenIsSpanned)
 {
-  Triangle_soup frame;
+  Prepared_soup prepared;
+  Triangle_soup& frame = prepared.soup;
   frame.points = {Point_3(0, 0, 0),     Point_3(0.01, 0, 0), Point_3(0, 1, 0),   Point_3(10, 1, 0),
                   Point_3(10, 0.99, 0), Point_3(10, 0, 0),   Point_3(9.99, 0, 0)};
   frame.triangles = {{0, 1, 2}, {2, 4, 3}, {3, 6, 5}};
@@ -135,11 +136,11 @@ TEST(Missed_target, AsksForMoreFacesWhereSomethingOpenIsSpanned)
   result.soup.points = frame.points;
   for (const auto& [foot, is_due] : {std::pair(5, true), std::pair(1, false)}) {
     result.soup.triangles = {{0, Index(foot), 2}};
-    EXPECT_EQ(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), frame}}), is_due) << foot;
+    EXPECT_EQ(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), prepared}}), is_due) << foot;
   }
   result.soup.triangles = {{0, 5, 2}};
   result.report.shares[0].output = 100; // its target
-  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), frame}}));
+  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0), prepared}}));
 }
 
 // What an interrupted reduction has reached is not given up for another one, which would end at once.
@@ -288,8 +289,10 @@ TEST(Missed_target, KeepsToLimitsThatSomebodyHasSet)
   EXPECT_GT(options_after(own, {}).max_border_drift, plain.max_border_drift);
 }
 
-// What has reached its target stays what it would be without the others.
-TEST(Missed_target, KeepsToLimitsOfLinesWhereALevelOrPartHasReachedItsTarget)
+// What has reached its target stays what it would be without the others, and what is not to have more faces
+// would be reduced further: a part of which hardly a face went, one without a target, a level that has kept
+// its shape.
+TEST(Missed_target, KeepsToLimitsOfLinesWhereALevelOrPartIsNotToHaveMoreFaces)
 {
   const Simplified_soup missing = result_held_by_lines(1);
   const auto is_eased = [&](const std::vector<Missed_target::Judged>& levels) {
@@ -303,8 +306,29 @@ TEST(Missed_target, KeepsToLimitsOfLinesWhereALevelOrPartHasReachedItsTarget)
   Simplified_soup parts = missing;
   parts.report.shares.push_back({1000, 0, 300, 300, 0});
   EXPECT_FALSE(is_eased({{parts, at_most(0.01), s_nothing}}));
+  for (const Simplify_report::Share& share :
+       {Simplify_report::Share{1000, 0, 100, 900, 0}, Simplify_report::Share{1000, 0, 0, 200, 0}}) {
+    parts.report.shares.back() = share;
+    EXPECT_FALSE(is_eased({{parts, at_most(0.01), s_nothing}})) << share.target;
+  }
+  EXPECT_FALSE(is_eased({{missing, at_most(0.001), s_nothing}, {missing, at_most(0.01), s_nothing}}));
   parts.report.shares.back() = {300, 300, 300, 300, 0}; // cannot change
   EXPECT_TRUE(is_eased({{parts, at_most(0.01), s_nothing}}));
+}
+
+// A line that turns and drifts more may leave the one across a gap.
+TEST(Missed_target, KeepsToLimitsOfLinesWhereGapsAreHeld)
+{
+  const Simplified_soup missing = result_held_by_lines(1);
+  Prepared_soup tied, facing;
+  tied.tied.emplace_back(0, 1);
+  facing.facing.push_back(0);
+  for (const Prepared_soup* const original : {&tied, &facing}) {
+    Missed_target missed(options_for_a_tenth());
+    EXPECT_TRUE(missed.advance({{missing, at_most(0.01), *original}}));
+    EXPECT_EQ(missed.options().max_border_turn, Simplify_options().max_border_turn);
+    EXPECT_EQ(missed.options().max_border_drift, Simplify_options().max_border_drift);
+  }
 }
 
 // The fewest faces bound the targets of ratios, of levels and of numbers of faces, and cells do their part.
