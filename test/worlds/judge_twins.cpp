@@ -11,6 +11,7 @@
 #include "support/Temporary_folder.h"
 #include <selvedge/Error.h>
 #include <selvedge/Error_search.h>
+#include <selvedge/Missed_target.h>
 #include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
 #include <selvedge/cells.h>
 #include <selvedge/compare.h>
@@ -25,6 +26,7 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -346,6 +348,74 @@ Verdict judge_reduction_to_more_faces(const World& world, const World_run& run, 
   return std::nullopt;
 }
 
+// The report of a second reduction is one of the targets that were asked for.
+Verdict judge_missed_report(const Simplify_report& first, const Simplified_soup& second)
+{
+  const Simplify_report& report = second.report;
+  const auto broken = [](const char* what) {
+    return Broken_promise{Promise::stop, std::string("a second reduction: ") + what};
+  };
+  std::size_t to_go = 0;
+  for (std::size_t i = 0; i < report.shares.size(); ++i) {
+    const Simplify_report::Share &now = report.shares[i], &before = first.shares[i];
+    to_go += now.excess();
+    if (now.target != before.target)
+      return broken("another target");
+    if (now.within_reach > 0 && (now.within_reach != before.output || now.output <= before.output))
+      return broken("what is within reach");
+    if (report.eased_lines && now.output < before.output)
+      return broken("a part has fewer faces, with lines eased");
+  }
+  if (report.faces_target != first.faces_target || report.faces_to_go != to_go)
+    return broken("another target, or distance to it");
+  if (report.hindrances.total() != first.hindrances.total() || report.outcome() != first.outcome())
+    return broken("it is held back by something else");
+  if (second.held_by.size() != second.triangles.size())
+    return broken("not every triangle is held by something");
+  return std::nullopt;
+}
+
+// Misses a target, and reduces again as the program does: to more faces, with lines eased.
+Verdict judge_missed_target(const World& world, const World_run& run, Judgement_counts& counts,
+                            const Judgement_extent& extent)
+{
+  Random random(world.seed + 12);
+  World twin = world;
+  twin.lods.clear();
+  twin.questions.reset();
+  Simplify_options& options = twin.options;
+  options.ratio.reset();
+  options.faces = 1;
+  options.max_error = random.one_of({0.001, 0.01, 0.05, 0.2});
+  const Simplify_options plain;
+  options.max_border_turn = plain.max_border_turn;
+  options.max_border_drift = plain.max_border_drift;
+  options.max_corner_height = 0;
+  Missed_target missed(options);
+  options = missed.options();
+  const Simplified_soup first = run_again(twin, run.prepared).result;
+  if (first.soup.triangles.empty())
+    return std::nullopt;
+  Distance flattened; // as if it were, which few worlds are
+  flattened.maximum = *options.max_error;
+  if (!missed.advance({{first, flattened, run.prepared}}))
+    return std::nullopt;
+  options = missed.options();
+  World_run with_record = run_again(twin, run.prepared);
+  options.remembered_refusals.reset();
+  const World_run second = test::run(twin);
+  if (auto broken = compare_bits(with_record, second, "with what the first reduction refused"))
+    return broken;
+  if (auto broken = judge(twin, second, counts, {extent.is_replay_asked, 0})) {
+    broken->message += ", in a second reduction";
+    return broken;
+  }
+  std::vector<Simplified_soup> completed{std::move(with_record.result)};
+  missed.complete(completed);
+  ++counts.options[completed[0].report.eased_lines ? "eased_lines" : "second_reduction"];
+  return judge_missed_report(first.report, completed[0]);
+}
+
 } // namespace
 
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
@@ -417,6 +487,11 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   if (random.one_in(2)) {
     ++counts.twins;
     if (auto broken = judge_reduction_to_more_faces(world, run, random))
+      return broken;
+  }
+  if (world.seed % 3 == 1) { // no random number, so that twins of earlier versions stay what they were
+    ++counts.twins;
+    if (auto broken = judge_missed_target(world, run, counts, extent))
       return broken;
   }
   if (random.one_in(8) && !is_scene && world.soup.poses.empty()) {

@@ -42,7 +42,8 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
 
 /// The first promise that a twin of a run breaks. One with another index, in other threads, with zeros of the
 /// other sign, or in units 2^k times as large does the same; one with vertices and triangles in another order
-/// keeps what this one keeps; a level of detail is what a run to it alone gives.
+/// keeps what this one keeps, and so does a second reduction after a missed target; a level of detail is what
+/// a run to it alone gives.
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
                     const Judgement_extent& extent = {});
 
