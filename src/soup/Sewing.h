@@ -78,9 +78,9 @@ private:
 ///
 /// Triangles belong together that agree across edges. Then the edges along which two disagree are taken in
 /// the order of their sides, and each joins two such surfaces, one of them turned; where both are already one
-/// surface (as in a Möbius band), the edge stays as it is. So triangles that agree
-/// across an edge still do. In every surface, the fewer triangles are turned; of equal numbers, those that
-/// its first triangle disagrees with.
+/// surface (as in a Möbius band), the edge stays as it is. So triangles that agree across an edge still do.
+/// In every surface, the fewer triangles are turned; of equal numbers, those that its first triangle
+/// disagrees with.
 ///
 /// **Complexity** O(n log n); that of `Sewing` where no two triangles disagree.
 std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, Index own_sides,

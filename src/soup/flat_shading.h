@@ -79,11 +79,11 @@ struct Vertices_by_normal
   std::vector<Index_triple> triangles; ///< indices into `vertices`
 };
 
-/// Returns a vertex for each vertex of the soup and each of these normals that it has, bit for bit; `normals`
-/// are those of the soup or others in their places. They are in the order of the
-/// vertices where each has one, else in that of the normals, which is the order of the file before
-/// `share_split_vertices`. Linear for bounded numbers of normals at a vertex; O(n log n) where some have
-/// several.
+/// Returns a vertex for each vertex of the soup and each of the normals that it has, bit for bit; `normals`
+/// are those of the soup or others in their places. The vertices are in the order of the soup's where each
+/// has one normal, else in that of the normals, which is the order of the file before `share_split_vertices`.
+///
+/// **Complexity** Linear for bounded numbers of normals at a vertex; O(n log n) where some have several.
 Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals);
 
 /// Returns the same triangles with vertices that have one normal each. Precondition: the soup has normals,
