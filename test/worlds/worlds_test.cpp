@@ -80,6 +80,14 @@ TEST(Worlds, HaveTheRegionsThatRoundingLeaves)
   }
 }
 
+// In another order, a spoke keeps two vertices from meeting between them, where every other rule lets them.
+TEST(Worlds, SayWhatHoldsBackAPlaceBetween)
+{
+  Judgement_counts counts;
+  const auto broken = judge(random_world(7301500), counts);
+  EXPECT_FALSE(broken) << broken->message;
+}
+
 TEST(Worlds, AreReducedAgainWithOtherOptions)
 {
   int judged = 0;

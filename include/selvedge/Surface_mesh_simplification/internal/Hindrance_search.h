@@ -71,7 +71,7 @@ public:
     if constexpr (has_places_between<Places>)
       for (unsigned rank = 0; const auto choice = places.choice(profile, rank); ++rank)
         if (choice->at == Merged_at::between && is_topology_kept)
-          weakest = (std::max)(weakest, m_filters.hindrance(*places.collapse(profile, choice->at)));
+          weakest = (std::max)(weakest, of_place(*places.collapse(profile, choice->at)));
     return weakest;
   }
 
@@ -90,6 +90,12 @@ private:
   Hindrance of_motion(Halfedge moving)
   {
     return of_motion(moving, [this](const auto& collapse) { return m_filters.hindrance(collapse); });
+  }
+
+  // Neither end is on a line, so that only a spoke can be in the way.
+  Hindrance of_place(const Collapse<Profile>& between) const
+  {
+    return m_filters.border_rule().allows(between) ? m_filters.hindrance(between) : Hindrance::line_end;
   }
 
   // A vertex that could go is held back by what holds its partner back.
