@@ -174,13 +174,14 @@ private:
                                               : int(type_float32);
   }
 
-  // Returns the largest number of a colour: 255 where numbers are from 0 to 255, and some well beyond 1.
-  double largest_of_colours() const
+  // Returns the number that stands for 1 in the components of colours from `first` up to `end`: 255 where
+  // they are from 0 to 255, and some well beyond 1.
+  double one_of_colours(std::size_t first, std::size_t end) const
   {
     double least = 0, largest = 0;
-    for (const Attribute_component& colour : m_colours)
+    for (std::size_t k = first; k < (std::min)(end, m_colours.size()); ++k)
       for (std::size_t i = 0; i < m_soup.points.size(); ++i)
-        if (const double number = colour.real(i); std::isfinite(number)) {
+        if (const double number = m_colours[k].real(i); std::isfinite(number)) {
           least = std::min(least, number);
           largest = std::max(largest, number);
         }
@@ -188,9 +189,11 @@ private:
   }
 
   // Colours in glTF are from 0 to 1. Vertices without a colour are white, like a mesh without colours.
-  float fraction_of_colour(double number) const
+  float fraction_of_colour(std::size_t component, std::size_t vertex) const
   {
-    return std::isfinite(number) ? float(std::clamp(number / m_largest_of_colours, 0., 1.)) : 1;
+    const double number = m_colours[component].real(vertex),
+                 one = component < 3 ? m_one_of_rgb : m_one_of_alpha;
+    return std::isfinite(number) ? float(std::clamp(number / one, 0., 1.)) : 1;
   }
 
   void add(const Vertex& v)
@@ -212,11 +215,11 @@ private:
       std::apply(put, m_normals.rows[v.normal]);
     if (v.kind.has_uvs)
       std::apply(put, m_uvs.rows[v.uv]);
-    for (const Attribute_component& colour : m_colours)
+    for (std::size_t k = 0; k < m_colours.size(); ++k)
       if (next->component_type == type_float32)
-        append_little_endian(next->rows, fraction_of_colour(colour.real(v.vertex)));
+        append_little_endian(next->rows, fraction_of_colour(k, v.vertex));
       else
-        colour.with(v.vertex, [&](auto number) {
+        m_colours[k].with(v.vertex, [&](auto number) {
           if constexpr (sizeof number <= 2)
             append_little_endian(next->rows, number);
         });
@@ -359,7 +362,8 @@ private:
   Triangle_soup m_result;
   std::vector<Kind> m_kinds; // of instances, in order
   std::vector<Attribute_component> m_colours;
-  double m_largest_of_colours = largest_of_colours();
+  // Some programs count colours from 0 to 255, and alpha from 0 to 1.
+  double m_one_of_rgb = one_of_colours(0, 3), m_one_of_alpha = one_of_colours(3, 4);
   std::vector<std::vector<std::array<float, 3>>> m_displacements; // of vertices, by target
   std::vector<std::string> m_target_names;
   std::vector<std::vector<std::size_t>> m_keys; // targets of each pose

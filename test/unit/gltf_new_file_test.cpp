@@ -134,11 +134,8 @@ TEST(Gltf, NewFileSplitsVerticesOnlyWhereCornersDiffer)
 TEST(Gltf, NewFileHasColoursFromZeroToOne)
 {
   const Temporary_folder folder;
-  const auto written = [&](const std::string& first, const std::string& second) {
-    write_mesh(folder / "a.glb",
-               read_mesh("v 0 0 0 " + first + "\nv 1 0 0 " + second + "\nv 0 1 0 0 0 0\nf 1 2 3\n",
-                         Mesh_format::obj, "test")
-                   .soup);
+  const auto written_of = [&](const std::string& text, Mesh_format format) {
+    write_mesh(folder / "a.glb", read_mesh(text, format, "test").soup);
     std::vector<float> numbers;
     for (const Attribute& colour : read_mesh(folder / "a.glb").soup.vertex_attributes)
       for (std::size_t v = 0; v < 2; ++v) {
@@ -148,11 +145,23 @@ TEST(Gltf, NewFileHasColoursFromZeroToOne)
       }
     return numbers;
   };
+  const auto written = [&](const std::string& first, const std::string& second) {
+    return written_of("v 0 0 0 " + first + "\nv 1 0 0 " + second + "\nv 0 1 0 0 0 0\nf 1 2 3\n",
+                      Mesh_format::obj);
+  };
   using Numbers = std::vector<float>; // red of both vertices, then green and blue
   EXPECT_EQ(written("1 0.25 0.5", "0 1 0"), (Numbers{1, 0, 0.25f, 1, 0.5f, 0}));
   EXPECT_EQ(written("51 255 0", "1 2 102"), (Numbers{0.2f, float(1 / 255.), 1, float(2 / 255.), 0, 0.4f}));
   EXPECT_EQ(written("1.25 0.5 -0.5", "0 0 0"), (Numbers{1, 0, 0.5f, 0, 0, 0}));
   EXPECT_EQ(written("500 0.5 0", "0 0 0"), (Numbers{1, 0, 0.5f, 0, 0, 0}));
+  EXPECT_EQ(
+      written_of(
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+          "property float red\nproperty float green\nproperty float blue\nproperty float alpha\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+          "0 0 0 51 0 0 0.5\n1 0 0 255 0 0 1\n0 1 0 0 0 0 1\n3 0 1 2\n",
+          Mesh_format::ply),
+      (Numbers{0.2f, 1, 0, 0, 0, 0, 0.5f, 1}));
 }
 
 TEST(Gltf, OtherFormatsHoldWorldPositions)
