@@ -442,7 +442,6 @@ void complete(Simplify_request& request)
   request.options.faces_per_cluster = request.faces_per_cluster.value_or(request.options.faces_per_cluster);
   request.options.max_corner_height = request.corner_height.value_or(request.options.max_corner_height);
   request.options.max_border_turn = request.border_turn.value_or(request.options.max_border_turn);
-  request.options.max_border_drift = request.border_drift.value_or(request.options.max_border_drift);
   request.options.instances = request.instances.value_or(request.options.instances);
   read_ratios(request);
   read_error(request);

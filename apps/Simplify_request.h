@@ -42,10 +42,10 @@ struct Simplify_request
   std::string poses_output;               // with {pose}
   std::vector<std::string> may_intersect; // "PART:PART"
   Placement_choice placement = Placement_choice::automatic;
-  Simplify_options options; // but for the placement; `complete` puts the next five in
+  Simplify_options options; // but for the placement; `complete` puts the next four in
   std::optional<Instances> instances;
   std::optional<std::size_t> faces_per_cluster;
-  std::optional<double> corner_height, border_turn, border_drift;
+  std::optional<double> corner_height, border_turn;
   Simplify_intent intent;
   bool is_unguarded = false;
   bool is_in_cells = false;

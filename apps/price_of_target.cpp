@@ -42,20 +42,13 @@ std::string options_without_shape(const Simplify_request& request, const Simplif
   return options;
 }
 
-/// Says that lines were eased, and by which options they are not; empty where none was.
-std::string what_lines_lose(const Simplify_options& asked, const Simplify_report& report)
+/// Says that borders were let turn farther, and by which option they are not; empty where none was.
+std::string what_borders_lose(const Simplify_options& asked, const Simplify_report& report)
 {
-  if (!report.eased_lines)
+  if (!report.eased_border_turn)
     return "";
-  std::string options;
-  const auto add = [&](const char* option, double limit, double eased) {
-    if (limit != eased)
-      options += option + with_digits(limit);
-  };
-  add(" --border-turn ", asked.max_border_turn, report.eased_lines->border_turn);
-  add(" --border-drift ", asked.max_border_drift, report.eased_lines->border_drift);
-  return "\neased: limits of borders, which keep faces there that the rest needs more;" + options +
-         " keeps to them";
+  return "\neased: the turn of borders, whose corners keep faces that the rest needs more; --border-turn " +
+         with_digits(asked.max_border_turn) + " keeps them";
 }
 
 } // namespace
@@ -68,7 +61,7 @@ std::string what_shape_takes(const Simplify_request& request, const Simplify_rep
     return "\nkept: " + counted(faces - within_reach, "face") +
            " that could go, because all that nothing holds would be flattened for them;" +
            options_without_shape(request, report) + " lets them go" +
-           what_lines_lose(request.options, report);
+           what_borders_lose(request.options, report);
   const bool is_target_asked_for = request.options.ratio || request.options.faces || !request.lods.empty();
   if (!is_target_asked_for || is_shape_kept(request))
     return "";

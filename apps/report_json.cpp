@@ -184,10 +184,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
       {"reached", done.is_reached()},
       {"outcome", done.outcome()},
       {"within_reach", done.faces_within_reach == 0 ? Json(nullptr) : Json(done.faces_within_reach)},
-      {"eased", nullptr}};
-  if (done.eased_lines)
-    report["target"]["eased"] = {{"border_turn", done.eased_lines->border_turn},
-                                 {"border_drift", done.eased_lines->border_drift}};
+      {"eased_border_turn", done.eased_border_turn ? Json(*done.eased_border_turn) : Json(nullptr)}};
   Json hindrances;
   for (const Hindrances::Description& description : Hindrances::descriptions())
     hindrances[description.key] = done.hindrances[description.reason];

@@ -47,8 +47,7 @@ public:
   explicit Reduction(const Simplify_request& request) : m_request(request), m_bar(!request.is_quiet)
   {
     if (is_shape_kept(request))
-      m_missed_target.emplace(request.options, Missed_target::Limits_set{request.border_turn.has_value(),
-                                                                         request.border_drift.has_value()});
+      m_missed_target.emplace(request.options, request.border_turn.has_value());
   }
 
   Exit_code run()

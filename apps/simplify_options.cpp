@@ -220,11 +220,11 @@ void add_options_of_limits(CLI::App& command, Simplify_request& request)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option("--border-drift", request.border_drift,
+      .add_option("--border-drift", options.max_border_drift,
                   "Largest distance of a border or seam from where it was, as a share of the diagonal.")
       ->check(in_range(0))
       ->type_name("D")
-      ->default_str(with_digits(options.max_border_drift))
+      ->capture_default_str()
       ->group(limits);
   command
       .add_option(

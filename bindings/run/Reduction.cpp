@@ -64,7 +64,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);
   else
-    missed_target.emplace(request.complete_options(), request.limits_set);
+    missed_target.emplace(request.complete_options(), request.is_border_turn_given);
   do {
     Simplify_options options = missed_target ? missed_target->options() : request.complete_options();
     if (m_error_search)

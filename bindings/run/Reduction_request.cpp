@@ -305,8 +305,7 @@ void Reduction_request::set(const std::string& name, const std::string& value)
       is_log_wanted = value_of(truth, value);
     else
       option->set(*this, value);
-    limits_set.border_turn |= name == "border_turn";
-    limits_set.border_drift |= name == "border_drift";
+    is_border_turn_given |= name == "border_turn";
   } catch (const Argument_error& error) {
     throw Argument_error(name + ": " + error.what());
   }

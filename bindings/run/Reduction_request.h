@@ -4,7 +4,6 @@
 #ifndef SELVEDGE_BINDINGS_RUN_REDUCTION_REQUEST_H
 #define SELVEDGE_BINDINGS_RUN_REDUCTION_REQUEST_H
 
-#include <selvedge/Missed_target.h>
 #include <selvedge/drop_parts.h>
 #include <selvedge/simplify.h>
 
@@ -59,7 +58,7 @@ struct Reduction_request
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default
   bool is_error_everywhere = false;
   bool is_weld_given = false;
-  Missed_target::Limits_set limits_set;
+  bool is_border_turn_given = false;
   bool are_key_poses_chosen = false; ///< whether collapses are judged in some of the further poses at first
   std::optional<std::size_t> threads;
 };

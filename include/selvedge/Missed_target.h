@@ -26,11 +26,10 @@ namespace selvedge {
 /// 0.75 and 0.90 of that at the end. Where a reduction is not stuck, it is about 0.9.
 ///
 /// What holds the others is often the course of borders, as in strips of hair, whose outlines keep every
-/// corner while the head below loses its shape. So the second reduction *eases lines*: borders turn by any
-/// angle, and all lines drift farther, so that the cost, which counts what a line loses as it counts what a
-/// surface does, says more about where faces go. Seams turn no more, because there the texture would show
-/// what lies beside its charts. Where gaps are held (`Prepared_soup::tied`, `facing`), no line is eased: as
-/// borders that turn and drift more leave each other, the gaps of a skirt at 2 % were twice as wide.
+/// corner while the head below loses its shape. So in the second reduction borders turn by any angle: the
+/// cost, which counts what a border loses as it counts what a surface does, says where faces go. Seams turn
+/// no more, because there the texture would show what lies beside its charts; nor do borders where gaps are
+/// held (`Prepared_soup::tied`, `facing`), because there they would leave each other.
 ///
 /// A caller reduces with the options of `options()`, judges, hands the results to `advance`, and reduces
 /// again if this returns true. Then `complete` makes the second results those of the targets that were asked
@@ -48,15 +47,12 @@ public:
     const Prepared_soup& original;
   };
 
-  /// Limits of lines that somebody has set, so that they stay. Any that is not the default counts as set.
-  struct Limits_set
-  {
-    bool border_turn = false, border_drift = false;
-  };
-
-  /// `asked` are the options that the caller wants.
-  explicit Missed_target(Simplify_options asked) : Missed_target(std::move(asked), Limits_set()) {}
-  Missed_target(Simplify_options asked, const Limits_set& set) : m_options(std::move(asked)), m_set(set)
+  /// `asked` are the options that the caller wants. Their limit of the turn of borders stays if it is set, as
+  /// is any that is not the default.
+  explicit Missed_target(Simplify_options asked, bool is_border_turn_set = false)
+      : m_options(std::move(asked)),
+        m_is_border_turn_set(is_border_turn_set ||
+                             m_options.max_border_turn != Simplify_options().max_border_turn)
   {
     if (m_options.ratio || m_options.faces)
       m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
@@ -77,21 +73,22 @@ public:
   /// allowed, at the vertices of the original or anywhere on its own faces, and a tenth of its faces is at
   /// most half of what went. Faces that cannot change do not count.
   ///
-  /// In the next one, no level has more faces than one that has reached its target now. Where limits of lines
-  /// hold a fiftieth of the edges or more, they are eased, as far as nobody has set them, unless gaps are
-  /// held, or some level or part that can change is not to have more faces: it would be reduced further.
+  /// In the next one, no level has more faces than one that has reached its target now. Borders turn by any
+  /// angle where limits of borders and seams hold a fiftieth of the edges or more, unless their turn is set,
+  /// gaps are held, or some level or part that can change is not to have more faces: it would be reduced
+  /// further.
   bool advance(const std::vector<Judged>& levels)
   {
     const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
     if (!m_first.empty() || std::any_of(levels.begin(), levels.end(), is_stopped))
       return is_not_due();
     std::vector<std::size_t> least;
-    bool may_ease_lines = true;
+    bool may_borders_turn = !m_is_border_turn_set;
     for (const Judged& level : levels) {
       const bool is_due = is_flattened(level);
       if (is_due)
         lower_to_missed(level.result.report.shares, least);
-      may_ease_lines &= is_due && is_held_by_lines(level.result.report) && !has_gaps_held(level.original);
+      may_borders_turn &= is_due && is_held_by_lines(level.result.report) && !has_gaps_held(level.original);
     }
     for (const Judged& level : levels)
       lower_to_reached(level.result.report.shares, least);
@@ -99,8 +96,9 @@ public:
     if (std::all_of(least.begin(), least.end(), [](std::size_t faces) { return faces == 0; }))
       return is_not_due();
     m_options.least_faces = std::move(least);
-    if (may_ease_lines)
-      ease_lines();
+    if (may_borders_turn)
+      m_options.max_border_turn = s_any_angle;
+    m_is_border_turn_eased = may_borders_turn;
     for (const Judged& level : levels)
       m_first.emplace_back(level.result);
     return true;
@@ -113,8 +111,8 @@ public:
   {
     for (std::size_t i = 0; i < m_first.size(); ++i) {
       m_first[i].complete(levels[i]);
-      if (m_are_lines_eased)
-        levels[i].report.eased_lines = {{m_options.max_border_turn, m_options.max_border_drift}};
+      if (m_is_border_turn_eased)
+        levels[i].report.eased_border_turn = m_options.max_border_turn;
     }
   }
 
@@ -122,7 +120,7 @@ private:
   using Shares = std::vector<Simplify_report::Share>;
 
   static constexpr double s_much = 0.25; // of the error allowed
-  static constexpr double s_drift_eased = 3;
+  static constexpr double s_any_angle = 180;
   static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
 
   bool is_flattened(const Judged& level) const
@@ -158,19 +156,6 @@ private:
   static bool has_gaps_held(const Prepared_soup& original)
   {
     return !original.tied.empty() || !original.facing.empty();
-  }
-
-  void ease_lines()
-  {
-    const Simplify_options plain;
-    const auto ease = [&](double Simplify_options::*limit, bool is_set, double eased) {
-      if (is_set || m_options.*limit != plain.*limit)
-        return;
-      m_options.*limit = eased;
-      m_are_lines_eased = true;
-    };
-    ease(&Simplify_options::max_border_turn, m_set.border_turn, 180);
-    ease(&Simplify_options::max_border_drift, m_set.border_drift, s_drift_eased * plain.max_border_drift);
   }
 
   static std::size_t a_tenth(std::size_t faces) { return (faces + 9) / 10; }
@@ -239,8 +224,7 @@ private:
   };
 
   Simplify_options m_options;
-  Limits_set m_set;
-  bool m_are_lines_eased = false;
+  bool m_is_border_turn_set, m_is_border_turn_eased = false;
   std::vector<First> m_first; // of all levels, once they are to be reduced again
 };
 

@@ -42,13 +42,9 @@ struct Simplify_report
   /// are possible, for which `hindrances` are. Otherwise 0.
   std::size_t faces_within_reach = 0;
 
-  struct Line_limits
-  {
-    double border_turn = 0;  ///< `Simplify_options::max_border_turn`
-    double border_drift = 0; ///< `Simplify_options::max_border_drift`
-  };
-  /// Where the caller has eased lines, too (`Missed_target`): the limits to which it reduced.
-  std::optional<Line_limits> eased_lines;
+  /// Where the caller also eased the turn of borders (`Missed_target`): the limit to which it reduced, in
+  /// degrees.
+  std::optional<double> eased_border_turn;
 
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place

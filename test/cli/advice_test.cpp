@@ -587,23 +587,19 @@ TEST(App_simplify, EasesBordersWhereATargetIsMissed)
   };
   const std::string eased = run({"--log", log});
   const double faces = json().at("faces").at("output");
-  EXPECT_NE(eased.find("\neased: limits of borders, which keep faces there that the rest needs more; "
-                       "--border-turn 30 --border-drift 0.01 keeps to them\n"),
+  EXPECT_NE(eased.find("\neased: the turn of borders, whose corners keep faces that the rest needs more; "
+                       "--border-turn 30 keeps them\n"),
             std::string::npos)
       << eased;
-  EXPECT_EQ(json().at("target").at("eased"), nlohmann::json({{"border_turn", 180}, {"border_drift", 0.03}}));
+  EXPECT_EQ(json().at("target").at("eased_border_turn"), 180);
   EXPECT_EQ(run_app({"replay", in, log}).code, 0);
 
-  const std::string strict = run({"--border-turn", "30", "--border-drift", "0.01"});
+  const std::string strict = run({"--border-turn", "30"});
   EXPECT_NEAR(json().at("faces").at("output"), faces, 0.01 * faces);
-  EXPECT_EQ(json().at("target").at("eased"), nullptr);
+  EXPECT_EQ(json().at("target").at("eased_border_turn"), nullptr);
   EXPECT_NE(strict.find("\nkept: "), std::string::npos);
   EXPECT_EQ(strict.find("\neased: "), std::string::npos);
   EXPECT_LT(rms_of(eased), 0.8 * rms_of(strict));
-
-  const std::string partly = run({"--border-turn", "30"});
-  EXPECT_NE(partly.find("; --border-drift 0.01 keeps to them\n"), std::string::npos);
-  EXPECT_EQ(json().at("target").at("eased").at("border_turn"), 30);
 }
 
 // Parts that stay have no shape to lose, and no options count the faces of those that are kept.

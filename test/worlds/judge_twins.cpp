@@ -363,8 +363,8 @@ Verdict judge_missed_report(const Simplify_report& first, const Simplified_soup&
       return broken("another target");
     if (now.within_reach > 0 && (now.within_reach != before.output || now.output <= before.output))
       return broken("what is within reach");
-    if (report.eased_lines && now.output < before.output)
-      return broken("a part has fewer faces, with lines eased");
+    if (report.eased_border_turn && now.output < before.output)
+      return broken("a part has fewer faces, with the turn of borders eased");
   }
   if (report.faces_target != first.faces_target || report.faces_to_go != to_go)
     return broken("another target, or distance to it");
@@ -375,7 +375,7 @@ Verdict judge_missed_report(const Simplify_report& first, const Simplified_soup&
   return std::nullopt;
 }
 
-// Misses a target, and reduces again as the program does: to more faces, with lines eased.
+// Misses a target, and reduces again as the program does: to more faces, where borders may turn by any angle.
 Verdict judge_missed_target(const World& world, const World_run& run, Judgement_counts& counts,
                             const Judgement_extent& extent)
 {
@@ -387,9 +387,7 @@ Verdict judge_missed_target(const World& world, const World_run& run, Judgement_
   options.ratio.reset();
   options.faces = 1;
   options.max_error = random.one_of({0.001, 0.01, 0.05, 0.2});
-  const Simplify_options plain;
-  options.max_border_turn = plain.max_border_turn;
-  options.max_border_drift = plain.max_border_drift;
+  options.max_border_turn = Simplify_options().max_border_turn;
   options.max_corner_height = 0;
   Missed_target missed(options);
   options = missed.options();
@@ -412,7 +410,7 @@ Verdict judge_missed_target(const World& world, const World_run& run, Judgement_
   }
   std::vector<Simplified_soup> completed{std::move(with_record.result)};
   missed.complete(completed);
-  ++counts.options[completed[0].report.eased_lines ? "eased_lines" : "second_reduction"];
+  ++counts.options[completed[0].report.eased_border_turn ? "eased_border_turn" : "second_reduction"];
   return judge_missed_report(first.report, completed[0]);
 }
 

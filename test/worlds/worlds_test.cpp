@@ -61,7 +61,7 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.options["fitted_attributes"], 0u);
   EXPECT_GT(counts.options["picked_normals"], 0u);
   EXPECT_GT(counts.options["softened_normals"], 0u);
-  EXPECT_GT(counts.options["eased_lines"], s_seeds / 40);
+  EXPECT_GT(counts.options["eased_border_turn"], s_seeds / 40);
   EXPECT_GT(counts.options["second_reduction"], 0u);
   EXPECT_GT(counts.twins, s_seeds);
   EXPECT_GT(counts.option_sets, s_seeds / 3);
