@@ -76,8 +76,8 @@ std::string row(const Attribute& attribute, Index number, std::size_t rows)
   return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
 }
 
-/// Colours of two meshes, of which one may have numbers up to 255 or 65535 and the other fractions. Where
-/// they differ in that, those of both are taken in the coarser of the two scales.
+/// Colours of two meshes, of which one may have numbers up to 255 or 65535, as integers or floats, and the
+/// other fractions. Where they differ in that, those of both are taken in the coarser of the two scales.
 class Colours_in_one_scale
 {
 public:
@@ -108,26 +108,57 @@ private:
   {
     for (const Attribute& a : of_a)
       for (const Attribute& b : of_b)
-        if (a.name == b.name && a.type != b.type && is_colour(a) && is_colour(b)) {
+        if (a.name == b.name && is_colour(a) && is_colour(b)) {
+          const double one_of_a = one_of(a, of_a), one_of_b = one_of(b, of_b);
+          if (a.type == b.type && one_of_a == one_of_b)
+            continue;
           const Attribute::Type coarser = std::min(a.type, b.type); // they are listed by size
-          m_scaled.emplace(&a, scaled(a, coarser));
-          m_scaled.emplace(&b, scaled(b, coarser));
+          m_scaled.emplace(&a, scaled(a, one_of_a, coarser));
+          m_scaled.emplace(&b, scaled(b, one_of_b, coarser));
         }
   }
 
-  // The numbers that a column of another type would have for the same colours.
-  static Attribute scaled(const Attribute& attribute, Attribute::Type type)
+  // Calls `function(i, number)` for each number of a column.
+  template <class Function>
+  static void for_each_number(const Attribute& attribute, const Function& function)
   {
-    Attribute result{attribute.name, Attribute::Type::float64, 1, false, {}};
     with_number(attribute.type, [&](auto number) {
-      using Number = decltype(number);
-      result.rows.resize(attribute.rows.size() / sizeof number * sizeof(double));
       for (std::size_t i = 0; i < attribute.rows.size() / sizeof number; ++i) {
         std::memcpy(&number, attribute.rows.data() + i * sizeof number, sizeof number);
-        const double largest = std::is_integral_v<Number> ? double(std::numeric_limits<Number>::max()) : 1;
-        const double value = in_scale_of(type, double(number) / largest) + 0.0; // no −0
-        std::memcpy(result.rows.data() + i * sizeof value, &value, sizeof value);
+        function(i, double(number));
       }
+    });
+  }
+
+  // Returns the number that stands for 1 in a colour: for integers the largest, and for floats 255 where
+  // those of all colours but alpha, or of alpha, are from 0 to 255, and some well beyond 1, as some programs
+  // write them; glTF gets fractions of these.
+  static double one_of(const Attribute& colour, const std::vector<Attribute>& attributes)
+  {
+    double least = 0, largest = 0;
+    for (const Attribute& other : attributes)
+      if (is_colour(other) && (other.name == "alpha") == (colour.name == "alpha"))
+        for_each_number(other, [&](std::size_t, double number) {
+          least = std::min(least, number);
+          largest = std::max(largest, number);
+        });
+    return with_number(colour.type, [&](auto number) {
+      using Number = decltype(number);
+      if constexpr (std::is_integral_v<Number>)
+        return double(std::numeric_limits<Number>::max());
+      else
+        return least >= 0 && largest > 2 && largest <= 255 ? 255. : 1.;
+    });
+  }
+
+  // The numbers that a column of another type would have for the same colours.
+  static Attribute scaled(const Attribute& attribute, double one, Attribute::Type type)
+  {
+    Attribute result{attribute.name, Attribute::Type::float64, 1, false, {}};
+    for_each_number(attribute, [&](std::size_t i, double number) {
+      const double value = in_scale_of(type, number / one) + 0.0; // no −0
+      result.rows.resize((i + 1) * sizeof value);
+      std::memcpy(result.rows.data() + i * sizeof value, &value, sizeof value);
     });
     return result;
   }

@@ -372,14 +372,19 @@ TEST(App_verify, ComparesColoursInOneScale)
   write_text(folder / "changed.obj", "v 0 0 0 0.0392 0.0784 0.1176\nv 1 0 0 0.0039 1 0.302\n"
                                      "v 0 1 0 0.502 0 0.0353\nv 1 1 0 0.7843 0.0118 0.3\n"
                                      "f 1 2 3\nf 3 2 4\n");
+  write_text(folder / "up_to_255.obj", "v 0 0 0 10 20 30\nv 1 0 0 1 255 77\nv 0 1 0 128 0 9\n"
+                                       "v 1 1 0 200 3 55\nf 1 2 3\nf 3 2 4\n");
+  const std::string glb = folder / "fractions.glb";
+  ASSERT_EQ(run_app({"simplify", folder / "up_to_255.obj", "-o", glb, "--ratio", "1", "--quiet"}).code, 0);
   const auto verdict = [&](const std::string& mesh, const std::string& original) {
     const App_result result = run_app({"verify", mesh, "--against", original});
     EXPECT_EQ(result.code, 0) << result.out;
     return result.out;
   };
   const char* const wrong = "values are NOT the original's";
-  for (const std::string& other :
-       {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply"}) {
+  EXPECT_EQ(verdict(glb, folder / "up_to_255.obj").find(wrong), std::string::npos);
+  for (const std::string& other : {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply",
+                                   folder / "up_to_255.obj"}) {
     EXPECT_EQ(verdict(other, bytes).find(wrong), std::string::npos) << other;
     EXPECT_EQ(verdict(bytes, other).find(wrong), std::string::npos) << other;
   }
