@@ -233,13 +233,13 @@ std::size_t seams_of_texture_and_soft_normals(const Simplify_request& request, c
   const bool can_loosen = prepared.normals == Normals_treatment::fitted && request.progressive.empty();
   if (!can_loosen || prepared.soup.uvs.empty())
     return 0;
-  Triangle_soup untextured = prepared.soup;
-  untextured.uvs = {};
-  if (!joins_vertices(suited_to(untextured, Normals_choice::automatic)))
+  Prepared_soup changed = prepared;
+  changed.soup.uvs = {};
+  if (!joins_vertices(suited_to(changed.soup, Normals_choice::automatic)))
     return 0;
-  Prepared_soup without_normals = prepared;
-  without_normals.soup.normals = {};
-  const std::map<std::string, std::size_t> seams = seams_of_attributes(without_normals);
+  changed.soup.uvs = prepared.soup.uvs;
+  changed.soup.normals = {};
+  const std::map<std::string, std::size_t> seams = seams_of_attributes(changed);
   const auto found = seams.find("texture");
   return found != seams.end() && found->second > of_texture ? found->second : 0;
 }
