@@ -99,8 +99,9 @@ namespace selvedge {
 /// lists. Primitives of points or lines, and meshes outside the scene, stay as they are. Those without a
 /// triangle left are removed.
 ///
-/// Colours of a mesh from another format are written to glTF from 0 to 1, as it has them: all are divided by
-/// 255 where the largest is more than 2 and at most 255, and none is negative; others are cut off at 0 and 1.
+/// Colours of a mesh from another format are written to glTF from 0 to 1, as it has them: red, green and blue
+/// are divided by 255 where the largest of all three is more than 2 and at most 255, and none is negative. So
+/// is alpha, by itself. Others are cut off at 0 and 1.
 ///
 /// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face has
 /// several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name the
