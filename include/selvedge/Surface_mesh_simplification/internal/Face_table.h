@@ -78,6 +78,10 @@ public:
   Face descriptor(Id id) const { return m_numbers.element(id); }
   Id id(Face face) const { return m_numbers.number(face); }
   const Corners& corners(Id id) const { return m_corners[id]; }
+  bool is_left(Id id) const
+  {
+    return m_corners[id][0] != s_no_corner;
+  } ///< whether no collapse has removed it
   bool is_at(Id id, Number vertex) const
   {
     const auto& [a, b, c] = corners(id);
@@ -94,8 +98,8 @@ public:
   }
 
   /// Likewise, for the hull of some points in the box. It may leave out faces that do not meet this.
-  void find_near(const CGAL::Bbox_3& box, const std::vector<Point>& points, Number mover,
-                 std::vector<Id>& near)
+  template <class Points>
+  void find_near(const CGAL::Bbox_3& box, const Points& points, Number mover, std::vector<Id>& near)
   {
     if constexpr (s_are_corners_wanted) {
       near.clear();
@@ -142,7 +146,9 @@ public:
   {
     if (CGAL::is_border(h, m_mesh))
       return;
-    m_index.remove(id(face(h, m_mesh)));
+    const Id removed = id(face(h, m_mesh));
+    m_index.remove(removed);
+    m_corners[removed].fill(s_no_corner);
     --m_size;
   }
 
@@ -191,6 +197,8 @@ public:
   }
 
 private:
+  static constexpr Number s_no_corner = Number(-1);
+
   void remove_clear_in_packs(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear)
   {
     constexpr std::size_t width = Star_pack_filter::width;

@@ -73,7 +73,8 @@ public:
                      FaceIndex&& empty_index)
       : m_mesh(mesh), m_traits(traits), m_vertices(mesh, points),
         m_faces(mesh, m_vertices, std::move(empty_index)), m_star(mesh, m_vertices), m_view(m_star),
-        m_exempt(mesh, m_vertices, m_faces, m_traits, m_permitted)
+        m_exempt(mesh, m_vertices, m_faces, m_traits, m_permitted),
+        m_last_refusals(m_vertices.size(), s_nothing_known)
   {
     require_exact_predicates<GeomTraits>();
     require_default_arithmetic();
@@ -109,8 +110,7 @@ public:
   {
     refuse_missing_visitor();
     m_exempt.consider(collapse);
-    m_is_announcement_due =
-        may_degenerate_faces_go(collapse) && are_motions_clear(collapse) && are_pairs_kept(collapse);
+    m_is_announcement_due = may_degenerate_faces_go(collapse) && are_motions_and_pairs_fine(collapse);
     return m_is_announcement_due;
   }
 
@@ -189,6 +189,10 @@ private:
     Sweeps unclear;
   };
 
+  // What refused the last motion of a vertex: a face that a sweep met, or one of these.
+  static constexpr Id s_nothing_known = Id(-1), s_more_pairs = Id(-2);
+  Id& last_refusal(Vertex mover) { return m_last_refusals[m_vertices.number(mover)]; }
+
   // A loop calls its visitor before it asks a filter, so that a loop without the visitor is noticed when it
   // asks for the first time. A visitor that announces runs and not all collapses is noticed by the number of
   // faces, which is counted for the first question of a run, and after a collapse that was accepted and not
@@ -232,12 +236,23 @@ private:
     return may_go;
   }
 
+  // Asks both questions; the one that refused this mover last comes first.
+  template <class Profile>
+  bool are_motions_and_pairs_fine(const Collapse<Profile>& collapse)
+  {
+    if (last_refusal(collapse.mover()) == s_more_pairs)
+      return are_pairs_kept(collapse) && are_motions_clear(collapse);
+    return are_motions_clear(collapse) && are_pairs_kept(collapse);
+  }
+
   template <class Profile>
   bool are_pairs_kept(const Collapse<Profile>& collapse)
   {
-    const bool are_kept = m_exempt.are_pairs_kept(collapse, m_blockers);
-    m_statistics.refused_by_descent += !are_kept;
-    return are_kept;
+    if (m_exempt.are_pairs_kept(collapse, m_blockers))
+      return true;
+    ++m_statistics.refused_by_descent;
+    last_refusal(collapse.mover()) = s_more_pairs;
+    return false;
   }
 
   // Whether other vertices at the position of the mover do not move with it.
@@ -305,6 +320,9 @@ private:
   bool are_sweeps_clear(const Motion& motion)
   {
     m_view.enclose_star();
+    m_sweeps.clear();
+    if (is_refused_by_last_blocker(motion))
+      return false;
     gather_faces_near(motion);
     m_stationary.clear();
     if (m_permitted.is_any())
@@ -314,9 +332,7 @@ private:
     std::optional<Id> face_at_place;
     for (std::size_t i = 0; i < m_near.size(); ++i) {
       const Id id = m_near[i];
-      const auto& corners = m_faces.corners(id);
-      const auto a = local(corners[0]), b = local(corners[1]);
-      Stationary_face face{{{a, b, local(corners[2])}}, id, m_unclear[i]};
+      Stationary_face face = stationary_face(id, m_unclear[i]);
       if (!motion.target)
         for (const auto corner : face.corners)
           if (m_star[corner] == motion.place)
@@ -336,11 +352,35 @@ private:
       return refuse(*face_of_both_parts);
     std::sort(m_stationary.begin(), m_stationary.end(),
               [](const Stationary_face& f, const Stationary_face& g) { return f.id < g.id; });
-    m_sweeps.clear();
     for (const Stationary_face& face : m_stationary)
-      if (!are_sweeps_clear_of(face))
+      if (!are_sweeps_clear_of(face)) {
+        last_refusal(motion.mover) = face.id;
         return refuse(face.id);
+      }
     return !face_at_place || refuse(*face_at_place);
+  }
+
+  Stationary_face stationary_face(Id id, Sweeps unclear)
+  {
+    const auto& corners = m_faces.corners(id);
+    const auto a = local(corners[0]), b = local(corners[1]);
+    return {{{a, b, local(corners[2])}}, id, unclear};
+  }
+
+  // Whether the face that refused the last motion of this vertex refuses this one as well. So it mostly is,
+  // and then no other need be found. (In other cases the answer may be no, and all faces are looked at.)
+  bool is_refused_by_last_blocker(const Motion& motion)
+  {
+    const Id blocker = last_refusal(motion.mover);
+    if (blocker == s_nothing_known || blocker == s_more_pairs || motion.is_joint() || m_permitted.is_any() ||
+        !m_faces.is_left(blocker) || m_faces.is_at(blocker, m_vertices.number(motion.mover)) ||
+        m_exempt.is_exempt(blocker))
+      return false;
+    Stationary_face face = stationary_face(blocker, ~Sweeps(0));
+    if ((m_view.has_view() && is_clear_of_star_in_view(face)) || are_sweeps_clear_of(face))
+      return false;
+    refuse(blocker);
+    return true;
   }
 
   bool are_sweeps_clear_of(const Stationary_face& face)
@@ -366,7 +406,7 @@ private:
   void gather_faces_near(const Motion& motion)
   {
     const auto mover = m_vertices.number(motion.mover);
-    m_faces.find_near(m_star.box(), m_star.points(), mover, m_near);
+    m_faces.find_near(m_star.box(), m_star.own_points(), mover, m_near);
     if (motion.is_joint())
       for (const Halfedge h : *motion.others)
         m_faces.remove_at(m_vertices.number(source(h, m_mesh)), m_near);
@@ -477,6 +517,7 @@ private:
   Clearance<Vertices, GeomTraits> m_clearance;
   bool m_is_clearance_lacking = false;
   std::vector<Face> m_blockers;
+  std::vector<Id> m_last_refusals; // by vertex
   Intersection_statistics m_statistics;
 
   // Buffers, so that judging a motion allocates nothing.

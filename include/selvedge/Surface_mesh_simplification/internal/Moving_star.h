@@ -162,6 +162,10 @@ public:
 
   /// The number of points of the star itself, which come first.
   std::size_t size() const { return m_size; }
+  auto own_points() const
+  {
+    return CGAL::make_range(m_points.begin(), m_points.begin() + std::ptrdiff_t(m_size));
+  }
 
   /// The edges of the link, in order around the mover.
   const std::vector<Link_edge>& link() const { return m_link; }
