@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_MISSED_TARGET_H
 #define SELVEDGE_MISSED_TARGET_H
 
-#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse_record.h>
 #include <selvedge/compare.h>
 #include <selvedge/simplify.h>
 
@@ -31,6 +31,9 @@ namespace selvedge {
 /// no more, because there the texture would show what lies beside its charts; nor do borders where gaps are
 /// held (`Prepared_soup::tied`, `facing`), because there they would leave each other.
 ///
+/// Where the second reduction only ends before the first one did, it repeats the collapses of that, which
+/// takes a small part of the time.
+///
 /// A caller reduces with the options of `options()`, judges, hands the results to `advance`, and reduces
 /// again if this returns true. Then `complete` makes the second results those of the targets that were asked
 /// for. There is one result, or one for each level of detail. Parts with a ratio of their own have a target
@@ -55,7 +58,7 @@ public:
                              m_options.max_border_turn != Simplify_options().max_border_turn)
   {
     if (m_options.ratio || m_options.faces)
-      m_options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
+      m_options.record = std::make_shared<internal::Collapse_record>();
   }
 
   /// Returns whether a result has used a quarter of the error that is allowed, if there is a limit above 0.
@@ -99,6 +102,10 @@ public:
     if (may_borders_turn)
       m_options.max_border_turn = s_any_angle;
     m_is_border_turn_eased = may_borders_turn;
+    if (std::all_of(levels.begin(), levels.end(),
+                    [this](const Judged& level) { return can_be_repeated(level); }))
+      m_options.repeated = m_options.record;
+    m_options.record.reset();
     for (const Judged& level : levels)
       m_first.emplace_back(level.result);
     return true;
@@ -111,6 +118,8 @@ public:
   {
     for (std::size_t i = 0; i < m_first.size(); ++i) {
       m_first[i].complete(levels[i]);
+      if (m_options.repeated)
+        m_first[i].complete_repeated(levels[i]);
       if (m_is_border_turn_eased)
         levels[i].report.eased_border_turn = m_options.max_border_turn;
     }
@@ -134,9 +143,18 @@ private:
     return is_farther(level.result.soup, level.original.soup, s_much * error);
   }
 
+  // Whether the next reduction begins as this one did, and ends before it. (Poses that this one did not guard
+  // may turn out to be pierced before its end.)
+  bool can_be_repeated(const Judged& level) const
+  {
+    return !m_is_border_turn_eased && m_options.faces_per_cell == 0 &&
+           level.result.report.shares.size() == 1 && level.original.soup.poses.empty();
+  }
+
   bool is_not_due()
   {
-    m_options.remembered_refusals.reset(); // which take memory
+    m_options.record.reset(); // which takes memory
+    m_options.repeated.reset();
     return false;
   }
 
@@ -187,7 +205,8 @@ private:
   class First
   {
   public:
-    explicit First(const Simplified_soup& result) : m_report(result.report)
+    explicit First(const Simplified_soup& result)
+        : m_report(result.report), m_history(result.history), m_refused_by_part(result.refused_by_part)
     {
       for (std::size_t t = 0; t < result.held_by.size(); ++t)
         m_held_by.emplace(result.triangles[t], result.held_by[t]);
@@ -218,8 +237,23 @@ private:
       }
     }
 
+    // What was asked for in the first reduction, of which the second has repeated the collapses.
+    void complete_repeated(Simplified_soup& result) const
+    {
+      Simplify_report& report = result.report;
+      report.passes = m_report.passes;
+      report.refused = m_report.refused;
+      report.refused_elsewhere = m_report.refused_elsewhere;
+      report.intersections = m_report.intersections;
+      report.index = m_report.index;
+      result.refused_by_part = m_refused_by_part;
+      result.history = m_history.until(report.collapses);
+    }
+
   private:
     Simplify_report m_report;
+    Reduction_history m_history;
+    std::vector<std::vector<Refusals>> m_refused_by_part;
     std::unordered_map<Index, Hindrance> m_held_by;
   };
 

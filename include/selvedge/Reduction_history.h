@@ -50,6 +50,21 @@ public:
       m_samples.back().refused = refused;
   }
 
+  /// Returns what this history was after some number of its collapses, at least 1. The costs and refusals of
+  /// its last sample may be those of later ones, too.
+  Reduction_history until(std::size_t collapses) const
+  {
+    Reduction_history result = *this;
+    std::vector<Sample>& samples = result.m_samples;
+    const auto last = std::find_if(samples.begin(), samples.end(),
+                                   [&](const Sample& sample) { return sample.collapses >= collapses; });
+    if (last != samples.end()) {
+      last->collapses = collapses;
+      samples.erase(last + 1, samples.end());
+    }
+    return result;
+  }
+
 private:
   static constexpr std::size_t s_most_samples = 256;
 

@@ -15,7 +15,7 @@
 
 namespace selvedge {
 namespace internal {
-class Remembered_refusals;
+class Collapse_record;
 } // namespace internal
 
 /// How far a reduction has come.
@@ -71,10 +71,15 @@ struct Simplify_options
   /// none. `Missed_target` sets them. The order of collapses is that of a reduction without them.
   std::vector<std::size_t> least_faces;
 
-  /// What the exact test has refused, where a reduction of one mesh is done again and begins like the one
-  /// before. It saves time, and changes nothing else. `Missed_target` makes it. May be null. One reduction at
-  /// a time may use it.
-  std::shared_ptr<internal::Remembered_refusals> remembered_refusals;
+  /// Takes down the collapses of this reduction, from the first on, for `repeated` of another one.
+  /// `Missed_target` makes it. May be null. One reduction at a time may use it.
+  std::shared_ptr<internal::Collapse_record> record;
+
+  /// The collapses of an earlier reduction of the same mesh, which had the same options but for
+  /// `least_faces`, and neither cells nor shares (`Simplify_constraints::shares`). They are done again until
+  /// the target is reached, and nothing is asked: the result is that of a reduction without them, but for
+  /// what its report says of refusals and tests. May be null.
+  std::shared_ptr<const internal::Collapse_record> repeated;
 
   /// The largest distance E between the surfaces of the original and the result, as a share of the diagonal
   /// of the bounding box, at least 0. It is measured at every collapse, and holds at any time: from every

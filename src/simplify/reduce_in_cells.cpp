@@ -279,7 +279,7 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   Simplify_options options = whole.options;
   options.ratio.reset();
   options.least_faces.clear();
-  options.remembered_refusals.reset();
+  options.record.reset();
   const std::size_t faces = cell.faces.size() - working.constraints().uncounted_faces.size();
   options.faces = faces - std::min(faces, 2 * wanted);
   options.should_stop = stop.of_cell();

@@ -380,9 +380,11 @@ private:
     }
   }
 
-  // Does at once what only reads the mesh.
+  // Does at once what only reads the mesh. What is repeated needs nothing of it.
   void begin()
   {
+    if (m_options.repeated)
+      return;
     tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification->build_index(); }),
                          Cancellation_scope::inherited([this] { m_simplification->begin(); }),
                          Cancellation_scope::inherited([this] { m_working.find_wedges(); }));

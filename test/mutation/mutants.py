@@ -1088,7 +1088,9 @@ group(
     ("if (m_exempt.is_exempt_inside()) {", "if (false) {", "a star that meets itself is judged as a whole"),
     ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
      "faces of a star that meets itself may degenerate"),
-    ("may_degenerate_faces_go(collapse) && are_motions_clear", "are_motions_clear", "degenerate faces move"),
+    ("may_degenerate_faces_go(collapse) && are_motions_and_pairs_fine", "are_motions_and_pairs_fine", "degenerate faces move"),
+    ("return are_pairs_kept(collapse) && are_motions_clear(collapse);", "return are_pairs_kept(collapse);",
+     "where pairs refused a vertex last, no motion of it is judged"),
     ("if (m_exempt.has_degenerate()) {", "if (false) {",
      "a degenerate face that is contracted is judged as a face with an area"),
 )
@@ -1723,14 +1725,13 @@ group("src/soup/Vertex_complex.cpp", ("vertex_complex_test",),
 group("src/simplify/reduce_in_cells.cpp", ("missed_target_test",),
       ("  options.least_faces.clear();", "", "no cell does anything where the whole has a least number of faces"))
 
-group("include/selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h", ("remembered_refusals_test",),
-      (" && m_words[m_place] == number", "", "other questions get the answers of the reduction before"),
-      ("    m_place = 0;\n", "", "a reduction goes on where the one before ended"),
-      ("(answer & 1) != 0", "false", "what only clearance refused is taken for contact"),
-      ("    if (m_is_following) {\n      m_place += 2;", "    if (true) {\n      m_place += 2;", "what is new is not recorded"),
-      (" && m_words[m_place + 1] == kind", "", "a collapse that was not done counts as done"),
-      ("    add_last_accepted();\n    m_is_following", "    m_is_following", "accepted questions whose collapses are not done are forgotten"),
-      ("    m_words.resize(m_place);\n", "", "what follows another question is remembered"))
+group("include/selvedge/Surface_mesh_simplification/internal/Collapse_record.h", ("collapse_record_test",),
+      ("    m_steps.clear();\n", "", "what a reduction before has done is done first"),
+      ("      places += is_placed;\n", "", "all new places are the first one"))
+group("include/selvedge/Surface_mesh_simplification/internal/Simplification.h", ("collapse_record_test",),
+      ("targets().is_reached() || should_stop(0, profile, 0, 0)", "should_stop(0, profile, 0, 0)", "all collapses are repeated"),
+      ("targets().is_reached() || should_stop(0, profile, 0, 0)", "targets().is_reached()", "nobody can stop a repetition"),
+      ("        m_is_mover_first = is_mover_first;\n        perform", "        perform", "which end moves first is forgotten"))
 group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("shares[i].output + a_tenth(shares[i].output - shares[i].fixed)", "shares[i].output",
        "a missed target keeps no face for the shape"),

@@ -69,15 +69,75 @@ TEST(Missed_target, AsksForATenthMoreFacesOnce)
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
 }
 
-TEST(Missed_target, RemembersRefusalsAsLongAsTheyMayBeOfUse)
+TEST(Missed_target, RepeatsTheCollapsesOfTheFirstReduction)
 {
   Missed_target missed(options_for_a_tenth());
-  EXPECT_TRUE(missed.options().remembered_refusals);
+  const std::shared_ptr<const internal::Collapse_record> record = missed.options().record;
+  EXPECT_TRUE(record);
+  EXPECT_FALSE(missed.options().repeated);
   EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
-  EXPECT_TRUE(missed.options().remembered_refusals);
+  EXPECT_FALSE(missed.options().record) << "it would record what it repeats";
+  EXPECT_EQ(missed.options().repeated, record);
   EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025), s_nothing}}));
-  EXPECT_FALSE(missed.options().remembered_refusals);
-  EXPECT_FALSE(Missed_target(Simplify_options()).options().remembered_refusals);
+  EXPECT_FALSE(missed.options().repeated);
+  EXPECT_FALSE(Missed_target(Simplify_options()).options().record);
+}
+
+TEST(Missed_target, ReportsWhatTheReductionAskedThatIsRepeated)
+{
+  Simplified_soup first = result_above_its_target();
+  first.report.refused.uv = 5;
+  first.report.passes = 2;
+  first.report.intersections.motions_judged = 50;
+  first.refused_by_part = {{first.report.refused}};
+  for (std::size_t i = 0; i < 9; ++i)
+    first.history.add(double(i), {});
+  std::vector<Simplified_soup> second{result_above_its_target()};
+  second[0].report.collapses = 8;
+  for (const bool is_repeated : {true, false}) {
+    Simplify_options options = options_for_a_tenth();
+    options.faces_per_cell = is_repeated ? 0 : 100;
+    Missed_target missed(options);
+    ASSERT_TRUE(missed.advance({{first, at_most(0.0025), s_nothing}}));
+    std::vector<Simplified_soup> completed = second;
+    missed.complete(completed);
+    EXPECT_EQ(completed[0].report.refused.uv, is_repeated ? 5u : 0u);
+    EXPECT_EQ(completed[0].report.passes, is_repeated ? 2u : 0u);
+    EXPECT_EQ(completed[0].report.intersections.motions_judged, is_repeated ? 50u : 0u);
+    EXPECT_EQ(completed[0].refused_by_part.size(), is_repeated ? 1u : 0u);
+    EXPECT_EQ(completed[0].history.samples().size(), is_repeated ? 8u : 0u);
+  }
+}
+
+TEST(Missed_target, RepeatsNothingWhereTheSecondReductionTakesAnotherCourse)
+{
+  const auto is_repeated = [](const Simplify_options& options, const Simplified_soup& result,
+                              const Prepared_soup& original) {
+    Missed_target missed(options);
+    EXPECT_TRUE(missed.advance({{result, at_most(0.0025), original}}));
+    EXPECT_FALSE(missed.options().record);
+    return bool(missed.options().repeated);
+  };
+  const Simplified_soup result = result_above_its_target();
+  EXPECT_TRUE(is_repeated(options_for_a_tenth(), result, s_nothing));
+
+  Simplify_options in_cells = options_for_a_tenth();
+  in_cells.faces_per_cell = 100;
+  EXPECT_FALSE(is_repeated(in_cells, result, s_nothing)) << "cells do not end together";
+
+  Simplified_soup of_two_parts = result;
+  of_two_parts.report.shares.push_back(result.report.shares[0]);
+  EXPECT_FALSE(is_repeated(options_for_a_tenth(), of_two_parts, s_nothing))
+      << "one may go on without the other";
+
+  Prepared_soup posed = s_nothing;
+  posed.soup.poses.emplace_back();
+  EXPECT_FALSE(is_repeated(options_for_a_tenth(), result, posed))
+      << "the judge may find a pose to be guarded";
+
+  Simplified_soup held_by_borders = result;
+  held_by_borders.report.hindrances[Hindrance::border_turn] = 10;
+  EXPECT_FALSE(is_repeated(options_for_a_tenth(), held_by_borders, s_nothing)) << "borders may turn";
 }
 
 // Faces that cannot change keep no shape.

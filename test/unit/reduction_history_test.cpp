@@ -64,5 +64,19 @@ TEST(Reduction_history, EndsWithWhatIsRefusedAfterTheLastCollapse)
   EXPECT_TRUE(empty.samples().empty());
 }
 
+TEST(Reduction_history, CanBeCutAfterACollapse)
+{
+  const Reduction_history history = history_of(1000); // of which a sample has 4
+  const Reduction_history within_a_sample = history.until(10);
+  ASSERT_EQ(within_a_sample.samples().size(), 3u);
+  EXPECT_EQ(within_a_sample.samples()[1].collapses, 8u);
+  EXPECT_EQ(within_a_sample.samples()[2].collapses, 10u);
+  EXPECT_EQ(within_a_sample.samples()[2].least_cost, 8);
+  const Reduction_history between_samples = history.until(8);
+  ASSERT_EQ(between_samples.samples().size(), 2u);
+  EXPECT_EQ(between_samples.samples()[1].collapses, 8u);
+  EXPECT_EQ(history.until(1000).samples().size(), history.samples().size());
+}
+
 } // namespace
 } // namespace selvedge

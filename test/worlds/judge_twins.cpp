@@ -12,7 +12,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Error_search.h>
 #include <selvedge/Missed_target.h>
-#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse_record.h>
 #include <selvedge/cells.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
@@ -326,26 +326,27 @@ Verdict judge_error_everywhere(const World& world, const World_run& run, Judgeme
   return broken;
 }
 
-// Reduces to more faces, which begins with the same collapses, and once more with what was refused before.
+// Reduces to more faces, which begins with the same collapses, and repeats these once more.
 Verdict judge_reduction_to_more_faces(const World& world, const World_run& run, Random& random)
 {
   World twin = world;
-  twin.options.remembered_refusals = std::make_shared<internal::Remembered_refusals>();
-  if (auto broken = compare_bits(run_again(twin, run.prepared), run, "with a record of what is refused"))
+  const auto record = std::make_shared<internal::Collapse_record>();
+  twin.options.record = record;
+  if (auto broken = compare_bits(run_again(twin, run.prepared), run, "with a record of the collapses"))
     return broken;
+  twin.options.record.reset();
   const Simplify_report& report = run.result.report;
   twin.options.least_faces = {std::size_t(random.between(int(report.faces_output), int(report.faces_input)))};
-  const World_run with_record = run_again(twin, run.prepared);
-  twin.options.remembered_refusals.reset();
-  const World_run without = run_again(twin, run.prepared);
-  if (auto broken = compare_bits(with_record, without, "with what a longer reduction refused"))
-    return broken;
+  const World_run shorter = run_again(twin, run.prepared);
   const bool is_one_share = world.intent.ratios.empty() && world.intent.kept.empty();
-  if (is_one_share && world.options.faces_per_cell == 0 &&
-      (without.collapses.size() > run.collapses.size() ||
-       !std::equal(without.collapses.begin(), without.collapses.end(), run.collapses.begin())))
+  const bool is_any_stopped = run.result.report.is_stopped || shorter.result.report.is_stopped;
+  if (!is_one_share || world.options.faces_per_cell > 0 || is_any_stopped)
+    return std::nullopt;
+  if (shorter.collapses.size() > run.collapses.size() ||
+      !std::equal(shorter.collapses.begin(), shorter.collapses.end(), run.collapses.begin()))
     return Broken_promise{Promise::determinism, "a reduction to more faces begins with other collapses"};
-  return std::nullopt;
+  twin.options.repeated = record;
+  return compare_bits(run_again(twin, run.prepared), shorter, "repeated collapses");
 }
 
 // The report of a second reduction is one of the targets that were asked for.
@@ -399,16 +400,17 @@ Verdict judge_missed_target(const World& world, const World_run& run, Judgement_
   if (!missed.advance({{first, flattened, run.prepared}}))
     return std::nullopt;
   options = missed.options();
-  World_run with_record = run_again(twin, run.prepared);
-  options.remembered_refusals.reset();
+  World_run as_asked = run_again(twin, run.prepared);
+  counts.options["repeated"] += bool(options.repeated);
+  options.repeated.reset();
   const World_run second = test::run(twin);
-  if (auto broken = compare_bits(with_record, second, "with what the first reduction refused"))
+  if (auto broken = compare_bits(as_asked, second, "a second reduction that repeats the first"))
     return broken;
   if (auto broken = judge(twin, second, counts, {extent.is_replay_asked, 0})) {
     broken->message += ", in a second reduction";
     return broken;
   }
-  std::vector<Simplified_soup> completed{std::move(with_record.result)};
+  std::vector<Simplified_soup> completed{std::move(as_asked.result)};
   missed.complete(completed);
   ++counts.options[completed[0].report.eased_border_turn ? "eased_border_turn" : "second_reduction"];
   return judge_missed_report(first.report, completed[0]);

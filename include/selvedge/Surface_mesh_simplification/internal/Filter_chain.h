@@ -13,19 +13,15 @@
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/internal/Border_partners.h>
-#include <selvedge/Surface_mesh_simplification/internal/Element_numbers.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Further_poses.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Reduction_setup.h>
-#include <selvedge/Surface_mesh_simplification/internal/Remembered_refusals.h>
 #include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/number_utils.h>
-
-#include <boost/container_hash/hash.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -60,8 +56,6 @@ public:
   using Partners = Border_partners<TriangleMesh>;
 
 private:
-  static constexpr bool are_elements_numbers = Are_numbers<Halfedge>::value && Are_numbers<Face>::value;
-
   // Whether a face lies in a strip between two lines, such as the edge of thick cloth: its corners are on
   // lines after the collapse, and at most one of its edges is a line. However long it is, the strip is no
   // wider.
@@ -139,8 +133,6 @@ public:
         m_tracked(m_mesh), m_error(setup.max_error, m_tracked), m_poses(setup, {&m_mesh, m_rule}),
         m_constraints(setup.constraints), m_diagonal(setup.diagonal), m_max_error(setup.max_error)
   {
-    if (m_options.remembered_refusals)
-      m_options.remembered_refusals->begin(face_count(m_mesh));
   }
 
   Filter_chain(const Filter_chain&) = delete; // filters refer to partners
@@ -262,9 +254,6 @@ public:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
-    if constexpr (are_elements_numbers)
-      if (m_options.remembered_refusals)
-        m_options.remembered_refusals->add_done(number_of(collapse));
     m_targets.before_collapse(collapse.moving());
     m_partners.before_collapse(collapse.moving());
     m_tracked.before_collapse(collapse);
@@ -316,7 +305,7 @@ private:
   {
     if (!m_intersection)
       return true;
-    if (!is_clear_or_remembered(collapse)) {
+    if (!is_clear_in_own_pose(collapse)) {
       ++m_refused_by_contact;
       m_refused_by_clearance += m_is_clearance_lacking;
       return false;
@@ -326,43 +315,6 @@ private:
     m_refused_by_clearance += m_poses.is_clearance_lacking();
     m_blockers = &m_poses.blockers();
     return false;
-  }
-
-  // Whether the exact test allows it in the mesh's own pose. What was refused before is not asked again.
-  template <class Profile>
-  bool is_clear_or_remembered(const Collapse<Profile>& collapse)
-  {
-    if constexpr (are_elements_numbers)
-      if (Remembered_refusals* const memory = m_options.remembered_refusals.get()) {
-        using Number = Remembered_refusals::Number;
-        const Number question = number_of(collapse);
-        if (const auto refusal = memory->refusal(question)) {
-          m_remembered_blockers.clear();
-          for (const Number face : refusal->blockers)
-            m_remembered_blockers.push_back(Face(face));
-          m_blockers = &m_remembered_blockers;
-          m_is_clearance_lacking = refusal->is_clearance_lacking;
-          return false;
-        }
-        const bool is_clear = is_clear_in_own_pose(collapse);
-        if (is_clear)
-          memory->add_accepted(question);
-        else
-          memory->add_refused(question, {m_is_clearance_lacking, {m_blockers->begin(), m_blockers->end()}});
-        return is_clear;
-      }
-    return is_clear_in_own_pose(collapse);
-  }
-
-  // Distinguishes a collapse from nearly all others that the same mesh may have.
-  template <class Profile>
-  static Remembered_refusals::Number number_of(const Collapse<Profile>& collapse)
-  {
-    const auto [moving, are_both_moved, place] = collapse.key();
-    std::size_t number = 2 * std::size_t(moving) + are_both_moved;
-    for (int axis = 0; axis < 3; ++axis)
-      boost::hash_combine(number, CGAL::to_double(place[axis]));
-    return Remembered_refusals::Number(number);
   }
 
   template <class Profile>
@@ -403,7 +355,6 @@ private:
   std::optional<Intersection> m_intersection;
   std::optional<typename Intersection::Visitor> m_visitor; // of that filter
   const std::vector<Face>* m_blockers = nullptr;
-  std::vector<Face> m_remembered_blockers;
   bool m_is_clearance_lacking = false;    // of what the exact test refused last in the mesh's own pose
   std::size_t m_refused_by_contact = 0;   // or by lack of clearance, in the mesh's own pose
   std::size_t m_refused_by_clearance = 0; // in any pose

@@ -66,6 +66,20 @@ public:
     return true;
   }
 
+  /// Finds what goes along with a collapse that is known to be allowed, as `allows` does, and asks nothing.
+  template <class Profile>
+  void expect(const Collapse<Profile>& collapse)
+  {
+    m_others.clear();
+    m_companions.clear();
+    if (!collapse.are_both_moved()) {
+      if (m_joint.is_joint(collapse.mover()))
+        m_others = m_joint.others(collapse.moving()).value();
+      m_companions = m_observer.companions(collapse.moving());
+    }
+    m_collapses_left = 1 + m_companions.size() + m_others.size();
+  }
+
   /// Returns the companions of the collapse that was allowed last.
   const std::vector<Halfedge>& companions() const { return m_companions; }
 

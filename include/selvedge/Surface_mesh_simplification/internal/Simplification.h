@@ -12,7 +12,9 @@
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse_cost.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse_record.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_chain.h>
 #include <selvedge/Surface_mesh_simplification/internal/Hindrance_search.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
@@ -26,7 +28,9 @@
 #include <CGAL/Kernel_traits.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -94,6 +98,7 @@ public:
     const Profile profile(moving, m_mesh, m_points, m_traits);
     ++m_accepted;
     m_is_mover_first = is_mover_first;
+    m_is_motion_due = true;
     Visitor visitor(*this);
     perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse<Profile>(profile, *place) : Collapse<Profile>::along(profile, moving),
@@ -151,15 +156,10 @@ public:
     for (const double ratio : ratios)
       m_levels.push_back(targets().share(0).at_ratio(ratio));
     m_on_level = on_level;
-    begin();
-    build_index();
-    refresh_quadrics();
-    pass_levels();
-    const Cost costs(m_mesh, m_quadrics, m_filters, m_motions.joint(), m_observer, m_options, m_diagonal);
-    if (m_options.placement == Placement::optimal)
-      run_passes(costs, Optimal_places(costs, rule(), {&m_observer}));
+    if (m_options.repeated)
+      repeat(*m_options.repeated);
     else
-      run_passes(costs, Ends(costs, rule()));
+      run_loop();
     while (m_next_level < m_levels.size())
       pass_level();
     return report();
@@ -183,12 +183,61 @@ private:
         m_diagonal(setup.diagonal), m_filters(setup, points, observer),
         m_motions(setup, points, m_filters, observer), m_quadrics(m_mesh, m_options.cost, rule())
   {
+    if (m_options.record)
+      m_options.record->clear();
     m_quadrics.weigh(m_mesh, setup.constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
     m_report.faces_input = targets().total().faces;
     m_report.faces_fixed = targets().total().fixed;
     for (const auto& share : targets().shares())
       m_report.shares.push_back({share.faces, share.fixed});
+  }
+
+  // Does what an earlier reduction has done, until the target is reached. Since nothing is asked, nobody need
+  // know costs, distances, and where faces are.
+  void repeat(const Collapse_record& record)
+  {
+    pass_levels();
+    if constexpr (Collapse_record::Is_possible<Halfedge>::value) {
+      struct No_cost
+      {
+      };
+      Visitor visitor(*this);
+      auto should_stop = is_interrupted();
+      record.for_each([&](std::uint32_t v0_v1, Merged_at at, const std::array<double, 3>& place,
+                          bool is_mover_first) {
+        const Profile profile(Halfedge(v0_v1), m_mesh, m_points, m_traits);
+        if (targets().is_reached() || should_stop(0, profile, 0, 0))
+          return false;
+        const auto collapse =
+            at == Merged_at::between
+                ? Collapse<Profile>(profile, Point(place[0], place[1], place[2]))
+                : Collapse<Profile>::along(profile, at == Merged_at::v0 ? profile.v1_v0() : profile.v0_v1());
+        m_motions.expect(collapse);
+        m_accepted += 1 + m_motions.companions().size();
+        m_is_mover_first = is_mover_first;
+        perform_collapse(m_mesh, m_points, No_constrained_edges(), collapse, visitor, No_cost());
+        for (const Halfedge companion : m_motions.take_rest()) {
+          const Profile of_companion(halfedge(edge(companion, m_mesh), m_mesh), m_mesh, m_points, m_traits);
+          perform_collapse(m_mesh, m_points, No_constrained_edges(),
+                           Collapse<Profile>::along(of_companion, companion), visitor, No_cost());
+        }
+        return true;
+      });
+    }
+  }
+
+  void run_loop()
+  {
+    begin();
+    build_index();
+    refresh_quadrics();
+    pass_levels();
+    const Cost costs(m_mesh, m_quadrics, m_filters, m_motions.joint(), m_observer, m_options, m_diagonal);
+    if (m_options.placement == Placement::optimal)
+      run_passes(costs, Optimal_places(costs, rule(), {&m_observer}));
+    else
+      run_passes(costs, Ends(costs, rule()));
   }
 
   template <class Places>
@@ -370,6 +419,7 @@ private:
     }
     m_is_mover_first = m_filters.is_mover_first();
     m_accepted += 1 + m_motions.companions().size();
+    m_is_motion_due = true;
     return true;
   }
 
@@ -384,6 +434,9 @@ private:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
+    if constexpr (Collapse_record::Is_possible<Halfedge>::value)
+      if (std::exchange(m_is_motion_due, false) && m_options.record)
+        m_options.record->add(collapse, m_is_mover_first);
     if (collapse.are_both_moved()) {
       ++m_report.placed;
       ++m_report.collapses;
@@ -452,6 +505,7 @@ private:
   Simplify_report m_report;
   std::size_t m_accepted = 0;
   bool m_is_mover_first = false; // of the last collapse accepted
+  bool m_is_motion_due = false;  // whether it has not begun
   double m_cost = 0;
   bool m_has_begun = false, m_has_index = false;
   bool m_are_quadrics_old = false; // for collapses that were found in cells
