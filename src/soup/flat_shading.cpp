@@ -66,7 +66,7 @@ enum class Sharing {
 // What a vertex has, as bytes.
 struct Vertex_bytes
 {
-  std::string normal, tangent, targets; // as in `Row_bytes`
+  std::string normal, tangent, targets; // as in `Row_bytes`; the tangent with its side if that may differ
   std::string others;                   // must be alike
 
   bool is_same(const Vertex_bytes& other) const
@@ -105,8 +105,7 @@ public:
           bytes_of_row(m_soup.scene->blocks[instance.block], m_soup.scene_vertices[vertex] - instance.first);
       append(bytes, number);
       bytes += row.others;
-      if (m_sharing != Sharing::without_normals)
-        bytes += row.side;
+      (m_sharing == Sharing::without_normals ? row.tangent : bytes) += row.side;
       if (m_sharing == Sharing::near)
         bytes += row.targets;
       result.tangent = std::move(row.tangent);

@@ -376,6 +376,23 @@ TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
   }
 }
 
+// Where a texture is mirrored across the direction of its tangents, only their sides differ.
+TEST(Gltf_tangents, AreLeftToTheSceneWhereOnlyTheirSidesDiffer)
+{
+  const Triangle_soup soup = hills(Normals_treatment::smooth);
+  Document document = document_of_corners(soup, false);
+  document.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
+      add_rows<float>(document, 3 * soup.triangles.size(), 4, 5126, [&](std::size_t i, std::size_t k) {
+        return k == 3 && is_before_middle(soup, i / 3) ? -1 : tangent_at(soup, i, false)[k];
+      });
+  Triangle_soup dropped = read_glb(document).soup;
+  EXPECT_EQ(vertices_used(dropped), places + along_middle);
+  EXPECT_EQ(dropped.vertex_attributes.size(), 1u);
+  share_vertices_without_normals(dropped);
+  EXPECT_EQ(vertices_used(dropped), places);
+  EXPECT_EQ(dropped.vertex_attributes.size(), 0u);
+}
+
 // The middle, where the texture is mirrored, is a seam in a replay where it was one for the writer of the
 // log.
 TEST(Gltf_tangents, HoldTheirSeamInAReplayOfLooseNormals)

@@ -335,7 +335,7 @@ void add_tangents_as_colours(Triangle_soup& soup, Random& random)
         points.push_back(soup.points[v]);
         const std::size_t axis = random.one_in(8) ? random.below(3) : 0;
         for (std::size_t i = 0; i < 4; ++i) {
-          const float number = i == axis ? 1.f : i < 3 ? 0.f : side == 0 ? 1.f : -1.f;
+          const float number = i == axis || (i == 3 && side == 0) ? 1 : 0;
           const auto* const bytes = reinterpret_cast<const unsigned char*>(&number);
           soup.vertex_attributes[i].rows.insert(soup.vertex_attributes[i].rows.end(), bytes,
                                                 bytes + sizeof number);
@@ -344,6 +344,26 @@ void add_tangents_as_colours(Triangle_soup& soup, Random& random)
       v = place->second;
     }
   soup.points = std::move(points);
+}
+
+void make_sides_of_alpha(Triangle_soup& soup)
+{
+  const auto make_sides = [](auto& rows) {
+    float side;
+    for (std::size_t place = 3 * sizeof side; place < rows.size(); place += 4 * sizeof side) {
+      std::memcpy(&side, rows.data() + place, sizeof side);
+      side = side == 0 ? -1 : 1;
+      std::memcpy(rows.data() + place, &side, sizeof side);
+    }
+  };
+  for (Attribute& attribute : soup.vertex_attributes)
+    if (attribute.name == "TANGENT")
+      make_sides(attribute.rows);
+  const auto scene = std::make_shared<Gltf_scene>(*soup.scene);
+  for (Gltf_scene::Block& block : scene->blocks)
+    if (Gltf_scene::Column* const column = block.tangents())
+      make_sides(column->rows);
+  soup.scene = scene;
 }
 
 void decorate(Triangle_soup& soup, Random& random)

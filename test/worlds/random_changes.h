@@ -41,8 +41,12 @@ void paint(Triangle_soup& soup);
 void add_poles(Triangle_soup& soup, Random& random);
 
 /// Normals, and vertex attributes red, green, blue and alpha that are numbers of tangents. Some triangles
-/// have vertices of their own, on the other side of a mirrored texture.
+/// have vertices of their own, on the other side of a mirrored texture: their alpha is 0, as no colour in a
+/// file is negative.
 void add_tangents_as_colours(Triangle_soup& soup, Random& random);
+
+/// Gives tangents that were colours in a glTF scene the side -1 where alpha was 0.
+void make_sides_of_alpha(Triangle_soup& soup);
 
 /// Puts the vertices of a glTF scene, and their texture coordinates, on the steps of a quantisation by Draco,
 /// as which the scene is written.

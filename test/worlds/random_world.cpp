@@ -186,7 +186,10 @@ Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others, Rando
     bind_some(json, *others, folder / "");
   }
   write_file(folder / "mesh.gltf", json.dump());
-  return read_mesh(folder / "mesh.gltf").soup;
+  Triangle_soup result = read_mesh(folder / "mesh.gltf").soup;
+  if (of_tangents)
+    make_sides_of_alpha(result);
+  return result;
 }
 
 // Of those without area a reduction does not know.

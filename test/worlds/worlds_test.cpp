@@ -454,8 +454,7 @@ TEST(JudgeOfWorlds, SeesATangentOnTheOtherSide)
   const auto turn_first = [](Triangle_soup& soup) {
     for (Attribute& attribute : soup.vertex_attributes)
       if (attribute.name == "TANGENT") {
-        const float before = side_of_tangent(attribute, soup.triangles[0][0]); // of random numbers, may be 0
-        const float side = before == 0 ? 1 : -before;
+        const float side = -side_of_tangent(attribute, soup.triangles[0][0]);
         std::memcpy(attribute.rows.data() + (4 * soup.triangles[0][0] + 3) * sizeof side, &side, sizeof side);
       }
   };
