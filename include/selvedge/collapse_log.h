@@ -64,8 +64,8 @@ namespace selvedge {
 ///   ignored when the writer makes the normals anew and keeps no edge for them. Where they are dropped, or
 ///   smooth and shared, vertices that differ in nothing else are one (`share_vertices_without_normals`),
 ///   before anything else is done; where they are soft and shared, those on soft lines. Where they are loose
-///   and shared, they are ignored, and such vertices are one. The side of TANGENT keeps vertices apart with
-///   soft and loose ones.
+///   and shared, they are ignored, and such vertices are one. The side of TANGENT keeps vertices apart unless
+///   normals are dropped.
 /// - *drop_part*, *drop_smaller*: what the writer left out before anything else (`drop_parts`): all triangles
 ///   of a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the
 ///   unit of the file. PART is written as in *may_intersect*.

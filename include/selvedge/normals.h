@@ -135,8 +135,8 @@ void join_normals_between_hard_edges(Triangle_soup& soup);
 /// Triangles then name the first of such vertices, and the others are unused. Corners keep their normals.
 /// Alike, bit for bit, must be positions in all poses (where −0 is 0), attributes, and texture coordinates if
 /// they are those of vertices; in a glTF scene the node and all accessors but NORMAL and TANGENT, those of
-/// morph targets included; and with `Normals_choice::loose` or `soft`, for which tangents stay, the side of
-/// TANGENT. With `soft`, only vertices on soft lines become one.
+/// morph targets included; and unless normals are dropped, so that tangents stay, the side of TANGENT. With
+/// `Normals_choice::soft`, only vertices on soft lines become one.
 /// Where vertices of different tangents become one, the scene alone has tangents then.
 /// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
 /// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and

@@ -244,8 +244,7 @@ std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice c
   separate_poles(soup);
   const bool is_soft = choice == Normals_choice::soft;
   const std::vector<char> is_asked = is_soft ? are_on_soft_lines(soup) : std::vector<char>();
-  const Sharing sharing =
-      is_soft || choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals;
+  const Sharing sharing = choice == Normals_choice::drop ? Sharing::without_normals : Sharing::loose;
   if ((is_soft && is_asked.empty()) || share_vertices(soup, sharing, is_asked) == 0) {
     soup.triangles = before;
     return 0;

@@ -448,8 +448,11 @@ group(
 for file, *entry in (
     ("src/soup/flat_shading.cpp", "row.normal == bytes.normal && row.targets != bytes.targets", "false",
      "a ridge that a morph target makes is lost"),
-    ("src/soup/flat_shading.cpp", "if (m_sharing != Sharing::without_normals)", "if (false)",
+    ("src/soup/flat_shading.cpp", "(m_sharing == Sharing::without_normals ? row.tangent : bytes)", "row.tangent",
      "tangents of both sides of a mirrored texture become one"),
+    ("src/soup/flat_shading.cpp", "(m_sharing == Sharing::without_normals ? row.tangent : bytes) += row.side;",
+     "if (m_sharing != Sharing::without_normals)\n        bytes += row.side;",
+     "other formats get tangents with the side of another"),
     ("src/soup/flat_shading.cpp", "do_tangents_differ |=", "do_tangents_differ &=",
      "other formats get one tangent of several"),
     ("src/files/Local_normals.cpp", "if (cosine > highest)", "if (false)", "tangents are those of a face far away"),

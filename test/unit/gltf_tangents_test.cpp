@@ -360,9 +360,12 @@ TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
         read_glb(document_of_corners(hills(Normals_treatment::smooth), is_mirrored)).soup;
     const std::size_t apart = places + (is_mirrored ? along_middle : 0);
     EXPECT_EQ(vertices_used(file), apart);
-    Triangle_soup loose = file, dropped = file;
-    share_vertices_without_normals(loose, Normals_choice::loose);
-    EXPECT_EQ(vertices_used(loose), apart);
+    for (const Normals_choice choice : {Normals_choice::loose, Normals_choice::smooth}) {
+      Triangle_soup shared = file;
+      share_vertices_without_normals(shared, choice);
+      EXPECT_EQ(vertices_used(shared), apart);
+    }
+    Triangle_soup dropped = file;
     share_vertices_without_normals(dropped);
     EXPECT_EQ(vertices_used(dropped), places);
     EXPECT_EQ(dropped.vertex_attributes.size(), is_mirrored ? 0u : 1u);
