@@ -98,10 +98,7 @@ private:
   static bool is_colour(const Attribute& attribute)
   {
     constexpr std::array<std::string_view, 4> names{"red", "green", "blue", "alpha"};
-    const bool holds_fractions = attribute.is_normalized || attribute.type == Attribute::Type::float32 ||
-                                 attribute.type == Attribute::Type::float64;
-    return attribute.components == 1 && holds_fractions &&
-           std::find(names.begin(), names.end(), attribute.name) != names.end();
+    return attribute.components == 1 && std::find(names.begin(), names.end(), attribute.name) != names.end();
   }
 
   void add(const std::vector<Attribute>& of_a, const std::vector<Attribute>& of_b)
@@ -112,10 +109,16 @@ private:
           const double one_of_a = one_of(a, of_a), one_of_b = one_of(b, of_b);
           if (a.type == b.type && one_of_a == one_of_b)
             continue;
-          const Attribute::Type coarser = std::min(a.type, b.type); // they are listed by size
+          const Attribute::Type coarser = std::min(type_of(a), type_of(b)); // they are listed by size
           m_scaled.emplace(&a, scaled(a, one_of_a, coarser));
           m_scaled.emplace(&b, scaled(b, one_of_b, coarser));
         }
+  }
+
+  // Other integers than those that stand for fractions become fractions in 32-bit floats in glTF.
+  static Attribute::Type type_of(const Attribute& colour)
+  {
+    return colour.is_normalized ? colour.type : std::max(colour.type, Attribute::Type::float32);
   }
 
   // Calls `function(i, number)` for each number of a column.
@@ -130,9 +133,9 @@ private:
     });
   }
 
-  // Returns the number that stands for 1 in a colour: for integers the largest, and for floats 255 where
-  // those of all colours but alpha, or of alpha, are from 0 to 255, and some well beyond 1, as some programs
-  // write them; glTF gets fractions of these.
+  // Returns the number that stands for 1 in a colour: for integers of fractions the largest, and for others
+  // 255 where those of all colours but alpha, or of alpha, are from 0 to 255, and some well beyond 1, as some
+  // programs write them; glTF gets fractions of these.
   static double one_of(const Attribute& colour, const std::vector<Attribute>& attributes)
   {
     double least = 0, largest = 0;
@@ -144,10 +147,9 @@ private:
         });
     return with_number(colour.type, [&](auto number) {
       using Number = decltype(number);
-      if constexpr (std::is_integral_v<Number>)
-        return double(std::numeric_limits<Number>::max());
-      else
-        return least >= 0 && largest > 2 && largest <= 255 ? 255. : 1.;
+      return colour.is_normalized                          ? double(std::numeric_limits<Number>::max())
+             : least >= 0 && largest > 2 && largest <= 255 ? 255.
+                                                           : 1.;
     });
   }
 

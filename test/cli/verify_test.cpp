@@ -374,6 +374,7 @@ TEST(App_verify, ComparesColoursInOneScale)
                                      "f 1 2 3\nf 3 2 4\n");
   write_text(folder / "up_to_255.obj", "v 0 0 0 10 20 30\nv 1 0 0 1 255 77\nv 0 1 0 128 0 9\n"
                                        "v 1 1 0 200 3 55\nf 1 2 3\nf 3 2 4\n");
+  write_text(folder / "ints.ply", ply("int", {"10 20 30", "1 255 77", "128 0 9", "200 3 55"}));
   const std::string glb = folder / "fractions.glb";
   ASSERT_EQ(run_app({"simplify", folder / "up_to_255.obj", "-o", glb, "--ratio", "1", "--quiet"}).code, 0);
   const auto verdict = [&](const std::string& mesh, const std::string& original) {
@@ -382,9 +383,10 @@ TEST(App_verify, ComparesColoursInOneScale)
     return result.out;
   };
   const char* const wrong = "values are NOT the original's";
-  EXPECT_EQ(verdict(glb, folder / "up_to_255.obj").find(wrong), std::string::npos);
+  for (const char* const original : {"up_to_255.obj", "ints.ply"})
+    EXPECT_EQ(verdict(glb, folder / original).find(wrong), std::string::npos) << original;
   for (const std::string& other : {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply",
-                                   folder / "up_to_255.obj"}) {
+                                   folder / "up_to_255.obj", folder / "ints.ply"}) {
     EXPECT_EQ(verdict(other, bytes).find(wrong), std::string::npos) << other;
     EXPECT_EQ(verdict(bytes, other).find(wrong), std::string::npos) << other;
   }
