@@ -187,6 +187,8 @@ TEST(App_simplify, EstimatesHowFarOptionsGo)
   for (const auto& [scene, given, option, value] :
        {std::tuple("skirt", std::vector<std::string>{"--ratio", "0.05", "--normal-change", "10"},
                    "--normal-change", "75"),
+        std::tuple("folded", std::vector<std::string>{"--ratio", "0.05", "--border-drift", "0.0002"},
+                   "--border-drift", "0.001"),
         std::tuple("nested", std::vector<std::string>{"--ratio", "0.01", "--placement", "vertices"},
                    "--error", "0.05")}) {
     ASSERT_EQ(run_app({"generate", scene, "-o", in, "--faces", "3000", "--quiet"}).code, 0);
@@ -211,6 +213,39 @@ TEST(App_simplify, EstimatesHowFarOptionsGo)
   const std::string without_target = run({"--error", "0.001"});
   EXPECT_NE(without_target.find("; try --error 0.005, which costs shape\n"), std::string::npos)
       << without_target;
+}
+
+// An error five times as large needs a fifth of the faces, and half of those whose normals turn too far go
+// with it, of all that were left where the target was missed. The next option is named where it lets at least
+// half as many edges go.
+TEST(App_simplify, NamesTwoOptionsThatGainAboutAsMuch)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 1500), report = folder / "report.json";
+  const auto run = [&](const std::string& option, const std::string& limit) {
+    return run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.05", option, limit, "--report",
+                    report})
+        .out;
+  };
+  const std::string two = run("--normal-change", "20"),
+                    error = "; try --error 0.05 against the error bound, which costs shape (to about ";
+  const nlohmann::json json = nlohmann::json::parse(contents_of(report)), held = json.at("hindrances");
+  const std::size_t place = two.find(error);
+  ASSERT_NE(place, std::string::npos) << two;
+  EXPECT_NE(two.find(" faces) and --normal-change 75 against the turn of normals (both to about "),
+            std::string::npos)
+      << two;
+  double edges = 0;
+  for (const auto& [reason, count] : held.items())
+    if (count.is_number())
+      edges += count.get<double>();
+  const double gone = 0.8 * (held.at("error").get<double>() + held.at("normal_change").get<double>() / 2),
+               left = json.at("target").at("within_reach").get<double>() * (1 - gone / edges);
+  EXPECT_NEAR(std::stod(two.substr(place + error.size())), left, 0.05 * left) << two;
+
+  const std::string one = run("--aspect-ratio", "0.3");
+  EXPECT_NE(one.find("; try --aspect-ratio 0 (to about "), std::string::npos) << one;
+  EXPECT_EQ(one.find(" and --error"), std::string::npos) << one;
 }
 
 // What only holds parts that have reached their targets is no reason.
@@ -513,7 +548,8 @@ TEST(App_simplify, SaysNothingOfNormalsAndPolygonsThatTheFormatCannotHold)
   }
 }
 
-// Where a target is missed, the last faces cost much: they are kept. What the summary names lets them go.
+// Where a target is missed, the last faces cost much: they are kept. What the summary names lets most of them
+// go.
 TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
 {
   const Workspace folder;
@@ -525,10 +561,11 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
       " faces that could go, because all that nothing holds would be flattened for them; --faces ";
   const std::size_t place = kept.out.find(text);
   ASSERT_NE(place, std::string::npos) << kept.out;
-  const std::size_t within_reach = std::stoul(kept.out.substr(place + text.size()));
+  const std::size_t named = std::stoul(kept.out.substr(place + text.size()));
   const auto json = [&] { return nlohmann::json::parse(contents_of(report)); };
   const auto target = json().at("target"), faces = json().at("faces");
-  EXPECT_EQ(target.at("within_reach"), within_reach);
+  const std::size_t within_reach = target.at("within_reach");
+  EXPECT_EQ(named, within_reach + (faces.at("output").get<std::size_t>() - within_reach + 2) / 3);
   EXPECT_EQ(target.at("reached"), false);
   EXPECT_NE(target.at("outcome"), "reached");
   EXPECT_EQ(faces.at("target"), 20);
@@ -541,9 +578,8 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
   EXPECT_EQ(run_app({"replay", in, log}).code, 0);
 
   const App_result flattened =
-      run_app({"simplify", in, "-o", out, "--faces", std::to_string(within_reach), "--report", report});
-  EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
-  EXPECT_NEAR(json().at("faces").at("output"), double(within_reach), 0.02 * double(within_reach));
+      run_app({"simplify", in, "-o", out, "--faces", std::to_string(named), "--report", report});
+  EXPECT_EQ(json().at("target").at("reached"), true);
   EXPECT_GT(rms_of(kept.out), 0);
   EXPECT_LT(rms_of(kept.out), 0.95 * rms_of(flattened.out));
 
@@ -557,6 +593,20 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run_app(arguments).out.find("\nkept: "), std::string::npos);
   }
+}
+
+// With the target that was possible on the way to another one, this jacket ends two faces above it, and keeps
+// a tenth again.
+TEST(App_simplify, NamesATargetThatIsReachedInAnotherOrder)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("jacket", "in.obj", 6000, 3), out = folder / "out.obj";
+  const App_result kept = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
+  const std::string text = " would be flattened for them; --faces ";
+  const std::size_t place = kept.out.find(text);
+  ASSERT_NE(place, std::string::npos) << kept.out;
+  const std::string named = std::to_string(std::stoul(kept.out.substr(place + text.size())));
+  EXPECT_EQ(run_app({"simplify", in, "-o", out, "--faces", named, "--require-target"}).code, 0) << named;
 }
 
 // Borders that keep every corner keep faces that a sphere needs more, unless somebody wants them to.
@@ -625,7 +675,7 @@ TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
   const auto json = [&] { return nlohmann::json::parse(contents_of(report)); };
   for (const std::string option : {"--keep", "--lock"}) {
     const std::string summary = run(option, {"--ratio", "0.001"});
-    const std::string text = " lets them go", before = "--faces ";
+    const std::string text = " lets most of them go", before = "--faces ";
     const std::size_t end = summary.find(text);
     ASSERT_NE(end, std::string::npos) << summary;
     const std::size_t begin = summary.rfind(before, end) + before.size();
@@ -640,7 +690,8 @@ TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
     const std::string beside = " (--faces " + faces + ", and 1,000 of other parts) reached";
     EXPECT_EQ(reached.find(beside) != std::string::npos, option == "--keep") << reached;
     EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
-    EXPECT_EQ(json().at("faces").at("output"), within_reach);
+    const std::size_t asked = std::stoul(faces) + (option == "--keep" ? triangles : 0);
+    EXPECT_LE(asked - json().at("faces").at("output").get<std::size_t>(), 1u); // of two faces, both go
     EXPECT_EQ(run(option, {"--error", "0.01"}).find("\nkept: "), std::string::npos) << "there is no target";
   }
 }
