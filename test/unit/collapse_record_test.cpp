@@ -1,24 +1,30 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "support/mesh_of.h"
+
+#include <selvedge/Surface_mesh_simplification/No_observer.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse_record.h>
+#include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 #include <selvedge/generate.h>
 #include <selvedge/simplify.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 namespace selvedge::test {
 namespace {
 
-Prepared_soup folded()
+Triangle_soup skirt()
 {
   Generate_options scene;
   scene.faces = 12000; // in whose order tiles matter
-  return prepare(generate("folded", scene), {});
+  return generate("skirt", scene);
 }
 
 // A reduction to as few faces as possible, with a record, or one to more faces.
@@ -31,76 +37,95 @@ Simplify_options to_few_faces()
   return options;
 }
 
-Simplify_options to_a_tenth_more(Simplify_options options, const Simplified_soup& first)
+Simplify_options to_a_tenth_more(Simplify_options options, const Simplify_report& first)
 {
   options.record.reset();
-  options.least_faces = {first.report.faces_output + first.report.faces_output / 10};
+  options.least_faces = {first.faces_output + first.faces_output / 10};
   return options;
 }
 
 struct Watched_run
 {
-  Simplified_soup result;
-  std::vector<Soup_collapse> collapses;
+  using Placed = std::tuple<Mesh::Halfedge_index, Point_3, bool>;
+
+  Triangle_soup result;
+  std::vector<Placed> placed;
+  Simplify_report report;
 };
-Watched_run run(const Prepared_soup& prepared, Simplify_options options)
+
+Watched_run run(Mesh mesh, const Simplify_options& options)
 {
+  struct Observer : No_observer
+  {
+    std::vector<Watched_run::Placed> placed;
+
+    void before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first)
+    {
+      placed.emplace_back(moving, place, is_mover_first);
+    }
+  } observer;
   Watched_run run;
-  options.on_collapse = [&](const Soup_collapse& collapse) { run.collapses.push_back(collapse); };
-  run.result = simplify_soup(prepared, options);
+  run.report = simplify_mesh(mesh, options, {}, observer);
+  run.result = soup_of(mesh);
+  run.placed = observer.placed;
   return run;
 }
 
 void expect_same(const Watched_run& a, const Watched_run& b)
 {
-  EXPECT_EQ(a.result.soup.points, b.result.soup.points);
-  EXPECT_EQ(a.result.soup.triangles, b.result.soup.triangles);
-  EXPECT_TRUE(a.collapses == b.collapses);
-  EXPECT_EQ(a.result.report.faces_output, b.result.report.faces_output);
-  EXPECT_EQ(a.result.report.collapses, b.result.report.collapses);
-  EXPECT_EQ(a.result.report.placed, b.result.report.placed);
+  EXPECT_EQ(a.result.points, b.result.points);
+  EXPECT_EQ(a.result.triangles, b.result.triangles);
+  EXPECT_TRUE(a.placed == b.placed);
+  EXPECT_EQ(a.report.faces_output, b.report.faces_output);
+  EXPECT_EQ(a.report.collapses, b.report.collapses);
+  EXPECT_EQ(a.report.placed, b.report.placed);
 }
 
 TEST(Collapse_record, GivesTheReductionToMoreFacesWithoutAQuestion)
 {
-  const Prepared_soup prepared = folded();
+  const Mesh mesh = mesh_of(skirt());
   for (const Placement placement : {Placement::vertices, Placement::optimal}) {
     Simplify_options options = to_few_faces();
     options.placement = placement;
-    const Simplified_soup first = simplify_soup(prepared, options);
+    const Simplify_report first = run(mesh, options).report;
     Simplify_options further = to_a_tenth_more(options, first);
-    const Watched_run asked = run(prepared, further);
+    const Watched_run asked = run(mesh, further);
     further.repeated = options.record;
-    const Watched_run repeated = run(prepared, further);
+    const Watched_run repeated = run(mesh, further);
     expect_same(repeated, asked);
-    EXPECT_GT(asked.result.report.faces_output, first.report.faces_output);
-    EXPECT_GT(asked.result.report.intersections.motions_judged, 0u);
-    EXPECT_EQ(repeated.result.report.intersections.motions_judged, 0u);
-    EXPECT_EQ(repeated.result.report.placed > 0, placement == Placement::optimal);
-    EXPECT_TRUE(repeated.result.report.is_reached());
+    EXPECT_GT(asked.report.faces_output, first.faces_output);
+    EXPECT_GT(asked.report.intersections.motions_judged, 0u);
+    EXPECT_EQ(repeated.report.intersections.motions_judged, 0u);
+    EXPECT_EQ(repeated.report.placed > 0, placement == Placement::optimal);
+    EXPECT_TRUE(repeated.report.is_reached());
+    const auto is_mover_first = [](const Watched_run::Placed& placed) { return std::get<2>(placed); };
+    EXPECT_EQ(std::any_of(asked.placed.begin(), asked.placed.end(), is_mover_first),
+              placement == Placement::optimal)
+        << "otherwise it says little";
   }
 }
 
 TEST(Collapse_record, BeginsAnewWithEachReduction)
 {
-  const Prepared_soup prepared = folded();
+  const Mesh mesh = mesh_of(skirt());
   const Simplify_options options = to_few_faces();
-  simplify_soup(prepared, options);
-  const Simplified_soup first = simplify_soup(prepared, options);
-  Simplify_options further = to_a_tenth_more(options, first);
-  const Watched_run asked = run(prepared, further);
+  Simplify_options other = options;
+  other.cost.memory = 1;
+  run(mesh, other);
+  Simplify_options further = to_a_tenth_more(options, run(mesh, options).report);
+  const Watched_run asked = run(mesh, further);
   further.repeated = options.record;
-  expect_same(run(prepared, further), asked);
+  expect_same(run(mesh, further), asked);
 }
 
 TEST(Collapse_record, IsRepeatedForLevelsOfDetail)
 {
-  const Prepared_soup prepared = folded();
+  const Prepared_soup prepared = prepare(skirt());
   Simplify_options options = to_few_faces();
   const std::vector<double> ratios{0.5, 0.2, 0};
   options.ratio.reset();
   const std::vector<Simplified_soup> first = simplify_lods(prepared, options, ratios);
-  Simplify_options further = to_a_tenth_more(options, first.back());
+  Simplify_options further = to_a_tenth_more(options, first.back().report);
   const std::vector<Simplified_soup> asked = simplify_lods(prepared, further, ratios);
   further.repeated = options.record;
   const std::vector<Simplified_soup> repeated = simplify_lods(prepared, further, ratios);
@@ -114,17 +139,16 @@ TEST(Collapse_record, IsRepeatedForLevelsOfDetail)
 
 TEST(Collapse_record, CanBeStoppedWhileItIsRepeated)
 {
-  const Prepared_soup prepared = folded();
+  const Mesh mesh = mesh_of(skirt());
   const Simplify_options options = to_few_faces();
-  const Simplified_soup first = simplify_soup(prepared, options);
-  Simplify_options further = to_a_tenth_more(options, first);
+  Simplify_options further = to_a_tenth_more(options, run(mesh, options).report);
   further.repeated = options.record;
   std::size_t questions = 0;
   further.should_stop = [&](const Simplify_progress&) { return ++questions == 3; };
-  const Simplified_soup stopped = simplify_soup(prepared, further);
-  EXPECT_TRUE(stopped.report.is_stopped);
-  EXPECT_GT(stopped.report.collapses, 0u);
-  EXPECT_GT(stopped.report.faces_output, further.least_faces[0]);
+  const Simplify_report stopped = run(mesh, further).report;
+  EXPECT_TRUE(stopped.is_stopped);
+  EXPECT_GT(stopped.collapses, 0u);
+  EXPECT_GT(stopped.faces_output, further.least_faces[0]);
 }
 
 } // namespace
