@@ -20,7 +20,7 @@
 namespace selvedge::test {
 namespace {
 
-Triangle_soup skirt()
+Triangle_soup skirt_to_record()
 {
   Generate_options scene;
   scene.faces = 12000; // in whose order tiles matter
@@ -48,12 +48,12 @@ struct Watched_run
 {
   using Placed = std::tuple<Mesh::Halfedge_index, Point_3, bool>;
 
-  Triangle_soup result;
+  Triangle_soup soup;
   std::vector<Placed> placed;
   Simplify_report report;
 };
 
-Watched_run run(Mesh mesh, const Simplify_options& options)
+Watched_run watched_run(Mesh mesh, const Simplify_options& options)
 {
   struct Observer : No_observer
   {
@@ -64,17 +64,17 @@ Watched_run run(Mesh mesh, const Simplify_options& options)
       placed.emplace_back(moving, place, is_mover_first);
     }
   } observer;
-  Watched_run run;
-  run.report = simplify_mesh(mesh, options, {}, observer);
-  run.result = soup_of(mesh);
-  run.placed = observer.placed;
-  return run;
+  Watched_run result;
+  result.report = simplify_mesh(mesh, options, {}, observer);
+  result.soup = soup_of(mesh);
+  result.placed = observer.placed;
+  return result;
 }
 
-void expect_same(const Watched_run& a, const Watched_run& b)
+void expect_same_runs(const Watched_run& a, const Watched_run& b)
 {
-  EXPECT_EQ(a.result.points, b.result.points);
-  EXPECT_EQ(a.result.triangles, b.result.triangles);
+  EXPECT_EQ(a.soup.points, b.soup.points);
+  EXPECT_EQ(a.soup.triangles, b.soup.triangles);
   EXPECT_TRUE(a.placed == b.placed);
   EXPECT_EQ(a.report.faces_output, b.report.faces_output);
   EXPECT_EQ(a.report.collapses, b.report.collapses);
@@ -83,16 +83,16 @@ void expect_same(const Watched_run& a, const Watched_run& b)
 
 TEST(Collapse_record, GivesTheReductionToMoreFacesWithoutAQuestion)
 {
-  const Mesh mesh = mesh_of(skirt());
+  const Mesh mesh = mesh_of(skirt_to_record());
   for (const Placement placement : {Placement::vertices, Placement::optimal}) {
     Simplify_options options = to_few_faces();
     options.placement = placement;
-    const Simplify_report first = run(mesh, options).report;
+    const Simplify_report first = watched_run(mesh, options).report;
     Simplify_options further = to_a_tenth_more(options, first);
-    const Watched_run asked = run(mesh, further);
+    const Watched_run asked = watched_run(mesh, further);
     further.repeated = options.record;
-    const Watched_run repeated = run(mesh, further);
-    expect_same(repeated, asked);
+    const Watched_run repeated = watched_run(mesh, further);
+    expect_same_runs(repeated, asked);
     EXPECT_GT(asked.report.faces_output, first.faces_output);
     EXPECT_GT(asked.report.intersections.motions_judged, 0u);
     EXPECT_EQ(repeated.report.intersections.motions_judged, 0u);
@@ -107,20 +107,20 @@ TEST(Collapse_record, GivesTheReductionToMoreFacesWithoutAQuestion)
 
 TEST(Collapse_record, BeginsAnewWithEachReduction)
 {
-  const Mesh mesh = mesh_of(skirt());
+  const Mesh mesh = mesh_of(skirt_to_record());
   const Simplify_options options = to_few_faces();
   Simplify_options other = options;
   other.cost.memory = 1;
-  run(mesh, other);
-  Simplify_options further = to_a_tenth_more(options, run(mesh, options).report);
-  const Watched_run asked = run(mesh, further);
+  watched_run(mesh, other);
+  Simplify_options further = to_a_tenth_more(options, watched_run(mesh, options).report);
+  const Watched_run asked = watched_run(mesh, further);
   further.repeated = options.record;
-  expect_same(run(mesh, further), asked);
+  expect_same_runs(watched_run(mesh, further), asked);
 }
 
 TEST(Collapse_record, IsRepeatedForLevelsOfDetail)
 {
-  const Prepared_soup prepared = prepare(skirt());
+  const Prepared_soup prepared = prepare(skirt_to_record());
   Simplify_options options = to_few_faces();
   const std::vector<double> ratios{0.5, 0.2, 0};
   options.ratio.reset();
@@ -139,13 +139,13 @@ TEST(Collapse_record, IsRepeatedForLevelsOfDetail)
 
 TEST(Collapse_record, CanBeStoppedWhileItIsRepeated)
 {
-  const Mesh mesh = mesh_of(skirt());
+  const Mesh mesh = mesh_of(skirt_to_record());
   const Simplify_options options = to_few_faces();
-  Simplify_options further = to_a_tenth_more(options, run(mesh, options).report);
+  Simplify_options further = to_a_tenth_more(options, watched_run(mesh, options).report);
   further.repeated = options.record;
   std::size_t questions = 0;
   further.should_stop = [&](const Simplify_progress&) { return ++questions == 3; };
-  const Simplify_report stopped = run(mesh, further).report;
+  const Simplify_report stopped = watched_run(mesh, further).report;
   EXPECT_TRUE(stopped.is_stopped);
   EXPECT_GT(stopped.collapses, 0u);
   EXPECT_GT(stopped.faces_output, further.least_faces[0]);
