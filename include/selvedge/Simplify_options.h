@@ -76,7 +76,7 @@ struct Simplify_options
   std::shared_ptr<internal::Collapse_record> record;
 
   /// The collapses of an earlier reduction of the same mesh, which had the same options but for
-  /// `least_faces`, no cells, and reduced one share (`Simplify_report::shares`). They are done again until
+  /// `least_faces`, and neither cells nor shares (`Simplify_constraints::shares`). They are done again until
   /// the target is reached, and nothing is asked: the result is that of a reduction without them, but for
   /// what its report says of refusals and tests. May be null.
   std::shared_ptr<const internal::Collapse_record> repeated;

@@ -125,10 +125,6 @@ TEST(Missed_target, RepeatsNothingWhereTheSecondReductionTakesAnotherCourse)
   in_cells.faces_per_cell = 100;
   EXPECT_FALSE(is_repeated(in_cells, result, s_nothing)) << "cells do not end together";
 
-  Simplified_soup with_a_part_kept = result;
-  with_a_part_kept.report.shares.push_back({50, 0, 50, 50, 0});
-  EXPECT_TRUE(is_repeated(options_for_a_tenth(), with_a_part_kept, s_nothing));
-
   Simplified_soup of_two_parts = result;
   of_two_parts.report.shares.push_back(result.report.shares[0]);
   EXPECT_FALSE(is_repeated(options_for_a_tenth(), of_two_parts, s_nothing))

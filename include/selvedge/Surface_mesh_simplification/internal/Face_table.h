@@ -78,10 +78,8 @@ public:
   Face descriptor(Id id) const { return m_numbers.element(id); }
   Id id(Face face) const { return m_numbers.number(face); }
   const Corners& corners(Id id) const { return m_corners[id]; }
-  bool is_left(Id id) const
-  {
-    return m_corners[id][0] != s_no_corner;
-  } ///< whether no collapse has removed it
+  /// Returns whether no collapse has removed the face.
+  bool is_left(Id id) const { return m_corners[id][0] != s_no_corner; }
   bool is_at(Id id, Number vertex) const
   {
     const auto& [a, b, c] = corners(id);
